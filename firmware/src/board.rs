@@ -15,7 +15,8 @@ use std::collections::BTreeMap;
 
 use crate::target::{self, Target};
 use pins::{InputFormat, Output, Wiring};
-use rungc_syntax::{DeviceClass, Source, inputs, toml_words};
+use rungc_syntax::codes::BOARD_FILE;
+use rungc_syntax::{DeviceClass, Diagnostic, Source, inputs, toml_words};
 use serde::Deserialize;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -180,24 +181,22 @@ pub enum BoardError {
         name: String,
     },
     /// It is not as it should be.
-    #[error("{place}: {message}")]
+    #[error("{}", line(file, error))]
     Wrong {
-        /// File, line and column.
-        place: String,
-        /// Description of the error.
-        message: String,
-        /// The line, with a mark below the place.
-        shown: String,
+        /// The description.
+        file: Box<Source>,
+        /// What is wrong (E0882).
+        error: Box<Diagnostic>,
     },
 }
 
-impl BoardError {
-    /// The error with the line in question and a mark below the place.
-    pub fn report(&self) -> String {
-        match self {
-            BoardError::Wrong { shown, .. } => format!("{self}{shown}"),
-            _ => self.to_string(),
-        }
+/// An error in one line, with its place.
+fn line(source: &Source, error: &Diagnostic) -> String {
+    let (line, column) = source.line_col(error.span.start);
+    let text = format!("{}:{line}:{column}: {}", source.name, error.message);
+    match &error.help {
+        Some(help) => format!("{text}; {help}"),
+        None => text,
     }
 }
 
@@ -402,7 +401,8 @@ pub fn parse(source: &Source, folder: &Path) -> Result<Board, BoardError> {
     };
     let format: Format = toml::from_str(&source.text).map_err(|error| {
         let at = error.span().map_or(0, |span| span.start);
-        reader.wrong(at, toml_words::message(error.message()))
+        let (message, help) = toml_words::message(error.message());
+        reader.wrong_with(at, message, help)
     })?;
     reader.board(format, folder)
 }
@@ -417,12 +417,16 @@ type Spanned = toml::Spanned<String>;
 
 impl Reader<'_> {
     fn wrong(&self, at: usize, message: String) -> BoardError {
-        let (line, column) = self.source.line_col(at as u32);
-        let text = self.source.text.lines().nth(line as usize - 1);
+        self.wrong_with(at, message, None)
+    }
+
+    fn wrong_with(&self, at: usize, message: String, help: Option<String>) -> BoardError {
+        let span = toml_words::token(&self.source.text, at);
+        let mut error = BOARD_FILE.at(span, message);
+        error.help = help.map(Into::into);
         BoardError::Wrong {
-            place: format!("{}:{line}:{column}", self.source.name),
-            message,
-            shown: toml_words::marked(text.unwrap_or_default(), (line, column)),
+            file: Box::new(self.source.clone()),
+            error: Box::new(error),
         }
     }
 

@@ -79,7 +79,7 @@ fn mistakes_in_serial_ports_are_named() {
             "UART1",
             "board.toml:12:8: `UART1` is not a serial port",
         ),
-        ("\"cmsdk\"", "\"z80\"", "unknown variant `z80`"),
+        ("\"cmsdk\"", "\"z80\"", "unknown name `z80`"),
         ("[0]", "[]", "name at least one interrupt"),
         ("[0]", "[480]", "from 0 to 479"),
         (
@@ -134,7 +134,7 @@ fn mistakes_are_named() {
             "tick_us = 10_000_000\nhz = ",
             "SysTick has 2 to 16 777 216",
         ),
-        ("hz = ", "herz = 1\nhz = ", "unknown field `herz`"),
+        ("hz = ", "herz = 1\nhz = ", "there is no key `herz`"),
         ("length = 16384", "length = 0", "`ram` is empty"),
         ("\n[clock]", "[clock]\nhz = 1\n[clock]", "duplicate key"),
     ] {

@@ -235,7 +235,7 @@ fn slots_that_cannot_work_are_rejected() {
         ("\"16K\"", "\"8K\"", sectors),
         ("0x0800_C000", "0x0801_0000", sectors),
         ("0x0800_8000", "0x2000_4000", sectors),
-        ("stm32f4", "flash", "unknown variant `flash`"),
+        ("stm32f4", "flash", "unknown name `flash`"),
     ] {
         let error = described(&format!("{BOARD}{}", F4.replace(from, to))).unwrap_err();
         assert!(error.contains(message), "{to}: {error}");

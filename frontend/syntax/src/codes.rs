@@ -15,6 +15,7 @@
 //! | E083x | what a search of runs finds |
 //! | E085x, W085x | boards, and writing images into them |
 //! | E087x | fleets of PLCs |
+//! | E088x | test files, machines, boards |
 //! | W090x | what can never happen in a program (`check --deep`) |
 //! | N00xx | worth knowing: how the source was read |
 //!
@@ -25,6 +26,7 @@ use crate::diag::{Diagnostic, Severity};
 
 mod boards;
 mod explore;
+mod files;
 mod fleets;
 mod labels;
 mod logic;
@@ -40,6 +42,7 @@ mod vendor;
 
 pub use boards::*;
 pub use explore::*;
+pub use files::*;
 pub use fleets::*;
 pub use labels::*;
 pub use logic::*;
@@ -156,6 +159,7 @@ pub fn all() -> Vec<&'static Code> {
         properties::TABLE,
         explore::TABLE,
         boards::TABLE,
+        files::TABLE,
         fleets::TABLE,
     ];
     let mut all: Vec<_> = families.into_iter().flatten().copied().collect();

@@ -1,38 +1,37 @@
 //! Mistakes in TOML files, in the words of TOML rather than of Rust: those of test files, machines and boards alike.
 
-use crate::diag;
+use crate::{Span, diag};
 
-/// Maximum number of characters of a line that a report shows.
-const LINE_SHOWN: usize = 100;
-
-/// A line of a file, with a mark below a place in it, both from 1; empty if the place is beyond what is shown.
-pub fn marked(line: &str, (number, column): (u32, u32)) -> String {
-    let text: String = line.replace('\t', " ").chars().take(LINE_SHOWN).collect();
-    let before = column as usize - 1;
-    if text.trim().is_empty() || before > text.chars().count() {
-        return String::new();
-    }
-    let number = number.to_string();
-    let margin = " ".repeat(number.len());
-    let mark = " ".repeat(before);
-    format!("\n {number} | {text}\n {margin} | {mark}^")
+/// The key, value or heading at a byte of a file: what a report marks.
+pub fn token(text: &str, at: usize) -> Span {
+    let rest = text.get(at..).unwrap_or_default();
+    let line = rest.lines().next().unwrap_or_default();
+    let length = match line.chars().next() {
+        Some(quote @ ('"' | '\'')) => {
+            let mut escaped = false;
+            let end = line.char_indices().skip(1).find(|&(_, c)| {
+                let ends = c == quote && !escaped;
+                escaped = quote == '"' && c == '\\' && !escaped;
+                ends
+            });
+            end.map(|(end, _)| end + 1)
+        }
+        Some('[') => line.rfind(']').map(|end| end + 1),
+        Some('{') => line.rfind('}').map(|end| end + 1),
+        _ => line.find(|c: char| c.is_whitespace() || "=,]}#".contains(c)),
+    };
+    let length = length.unwrap_or(line.trim_end().len());
+    Span::new(at as u32, (at + length) as u32)
 }
 
-/// Message of the TOML reader, in the words of TOML rather than of Rust; for an unknown field with the name that is
-/// meant, if it is known.
-pub fn message(message: &str) -> String {
+/// Message of the TOML reader, in the words of TOML rather than of Rust, and a help: for an unknown name the one that
+/// is meant, or all that are known.
+pub fn message(message: &str) -> (String, Option<String>) {
     if message.contains("$__toml_private") {
-        return "write a date or a time in quotes".to_string();
+        return ("write a date or a time in quotes".to_string(), None);
     }
-    let unknown = message
-        .strip_prefix("unknown field `")
-        .and_then(|rest| rest.split_once('`'));
-    if let Some((field, known)) = unknown {
-        let known = known.split('`').skip(1).step_by(2);
-        let longer = known.clone().find(|known| known.starts_with(field));
-        if let Some(near) = diag::did_you_mean(field, known).or(longer) {
-            return format!("unknown field `{field}`: did you mean `{near}`?");
-        }
+    if let Some(unknown) = unknown(message) {
+        return unknown;
     }
     let words = [
         ("expected f64", "expected a number"),
@@ -50,6 +49,7 @@ pub fn message(message: &str) -> String {
             "invalid type: map, expected a sequence",
             "write tables of this name in double brackets",
         ),
+        ("missing field `", "missing key `"),
         ("invalid type: map", "invalid type: table"),
         ("expected a map", "expected a table: `{ NAME = VALUE }`"),
         ("expected a sequence", "expected a list in brackets"),
@@ -61,25 +61,92 @@ pub fn message(message: &str) -> String {
         }
         None => message.to_string(),
     };
-    words
+    let text = words
         .iter()
-        .fold(message, |text, (from, to)| text.replace(from, to))
+        .fold(message, |text, (from, to)| text.replace(from, to));
+    (text, None)
+}
+
+/// The message and the help of a name that is not known.
+fn unknown(message: &str) -> Option<(String, Option<String>)> {
+    let words = [
+        ("unknown field `", "there is no key"),
+        ("unknown variant `", "unknown name"),
+    ];
+    let (rest, what) = words
+        .into_iter()
+        .find_map(|(from, what)| Some((message.strip_prefix(from)?, what)))?;
+    let (name, known) = rest.split_once('`')?;
+    let known: Vec<_> = known.split('`').skip(1).step_by(2).collect();
+    let longer = || known.iter().find(|known| known.starts_with(name));
+    let near = diag::did_you_mean(name, known.iter().copied());
+    let help = match near.or_else(|| longer().copied()) {
+        Some(near) => Some(format!("did you mean `{near}`?")),
+        None if known.is_empty() => None,
+        None => Some(format!("valid names: {}", known.join(", "))),
+    };
+    Some((format!("{what} `{name}`"), help))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{marked, message};
+    use super::{message, token};
 
     #[test]
     fn whole_numbers_have_their_range() {
         let of_serde = "invalid value: integer `-5`, expected u32";
         let said = "invalid value: integer `-5`, expected a whole number from 0 to 4294967295";
-        assert_eq!(message(of_serde), said);
+        assert_eq!(message(of_serde), (said.to_string(), None));
     }
 
     #[test]
-    fn a_mark_stands_below_its_column() {
-        assert_eq!(marked("a = 1", (12, 5)), "\n 12 | a = 1\n    |     ^");
-        assert_eq!(marked("", (1, 1)), "");
+    fn unknown_names_have_a_help() {
+        for (of_serde, said, help) in [
+            (
+                "unknown field `topik`, expected one of `model`, `topic`",
+                "there is no key `topik`",
+                Some("did you mean `topic`?"),
+            ),
+            (
+                "unknown field `x`, expected one of `model`, `topic`",
+                "there is no key `x`",
+                Some("valid names: model, topic"),
+            ),
+            (
+                "unknown field `x`, there are no fields",
+                "there is no key `x`",
+                None,
+            ),
+            (
+                "unknown variant `z80`, expected `cmsdk` or `stm32f1`",
+                "unknown name `z80`",
+                Some("valid names: cmsdk, stm32f1"),
+            ),
+        ] {
+            let help = help.map(str::to_string);
+            assert_eq!(message(of_serde), (said.to_string(), help), "{of_serde}");
+        }
+    }
+
+    #[test]
+    fn a_token_is_what_stands_at_its_place() {
+        let text = "a = \"x = \\\"1\\\"\" # b\n[[case]]\nb=[1, 2]\nc = { d = 1 }, e";
+        for (at, marked) in [
+            ("a", "a"),
+            ("\"x", "\"x = \\\"1\\\"\""),
+            ("[[", "[[case]]"),
+            ("b=", "b"),
+            ("[1", "[1, 2]"),
+            ("2", "2"),
+            ("{", "{ d = 1 }"),
+        ] {
+            let span = token(text, text.find(at).unwrap());
+            assert_eq!(
+                &text[span.start as usize..span.end as usize],
+                marked,
+                "{at}"
+            );
+        }
+        assert_eq!(token(text, text.len()).start as usize, text.len());
     }
 }

@@ -1,8 +1,10 @@
 //! Mistakes in TOML files that a user writes, each with its place.
 
 use rungc_frontend::{Recognised, is_meant_as_toml, is_program, recognise};
-use rungc_syntax::{Source, inputs, toml_words};
+use rungc_syntax::codes::Code;
+use rungc_syntax::{Diagnostics, Source, Span, inputs, toml_words};
 use serde::de::DeserializeOwned;
+use std::fmt;
 use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 
@@ -13,22 +15,33 @@ pub struct Problem {
     pub line: u32,
     /// Column in characters, from 1.
     pub column: u32,
+    /// Position in the text.
+    pub span: Span,
     /// Description of the error.
     pub message: String,
-    /// The line.
-    pub text: String,
+    /// Remedy, if one is known.
+    pub help: Option<String>,
 }
 
 impl Problem {
     /// A problem at a byte of the text.
     pub(crate) fn at(source: &Source, at: usize, message: String) -> Problem {
         let (line, column) = source.line_col(at as u32);
-        let text = source.text.lines().nth(line as usize - 1);
         Problem {
             line,
             column,
+            span: toml_words::token(&source.text, at),
             message,
-            text: text.unwrap_or_default().to_string(),
+            help: None,
+        }
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.help {
+            Some(help) => write!(f, "{}; {help}", self.message),
+            None => f.write_str(&self.message),
         }
     }
 }
@@ -45,32 +58,50 @@ pub enum LoadError {
         error: std::io::Error,
     },
     /// Mistakes in it, one a line.
-    #[error("{}", lines(name, problems))]
+    #[error("{}", lines(file, problems))]
     Format {
-        /// The file's name.
-        name: String,
+        /// Code of the mistakes.
+        code: &'static Code,
+        /// The file.
+        file: Box<Source>,
         /// Its problems.
         problems: Vec<Problem>,
     },
 }
 
-impl LoadError {
-    /// The error with the lines in question and a mark below each place.
-    pub fn report(&self) -> String {
-        let LoadError::Format { name, problems } = self else {
-            return self.to_string();
-        };
-        let shown = problems.iter().map(|problem| {
-            let message = lines(name, std::slice::from_ref(problem));
-            let place = (problem.line, problem.column);
-            message + &toml_words::marked(&problem.text, place)
-        });
-        shown.collect::<Vec<_>>().join("\n")
+impl From<LoadError> for rungc_project::Error {
+    fn from(error: LoadError) -> Self {
+        match error {
+            LoadError::Io { path, error } => rungc_project::Error::Io { path, error },
+            LoadError::Format {
+                code,
+                file,
+                problems,
+            } => {
+                let mut diagnostics = Diagnostics::new();
+                for Problem {
+                    span,
+                    message,
+                    help,
+                    ..
+                } in problems
+                {
+                    let mut diagnostic = code.at(span, message);
+                    diagnostic.help = help.map(Into::into);
+                    diagnostics.push(diagnostic);
+                }
+                rungc_project::Error::Invalid {
+                    path: PathBuf::from(&file.name),
+                    text: file,
+                    diagnostics,
+                }
+            }
+        }
     }
 }
 
-fn lines(name: &str, problems: &[Problem]) -> String {
-    let line = |p: &Problem| format!("{name}:{}:{}: {}", p.line, p.column, p.message);
+fn lines(source: &Source, problems: &[Problem]) -> String {
+    let line = |p: &Problem| format!("{}:{}:{}: {p}", source.name, p.line, p.column);
     problems.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
@@ -108,10 +139,10 @@ pub(crate) fn from_toml<T: DeserializeOwned>(source: &Source) -> Result<T, Vec<P
             return vec![Problem::at(source, 0, what)];
         }
         let at = error.span().map_or(0, |span| span.start);
-        vec![Problem::at(
-            source,
-            at,
-            toml_words::message(error.message()),
-        )]
+        let (message, help) = toml_words::message(error.message());
+        vec![Problem {
+            help,
+            ..Problem::at(source, at, message)
+        }]
     })
 }

@@ -1,8 +1,9 @@
 //! `rungc boards`: the boards that rungc has descriptions of.
 
-use super::{Context, Failure, Outcome, Result, print_text};
-use crate::args::BoardsArgs;
+use super::{Context, Failure, Outcome, Result, print_text, subject};
+use crate::args::{BoardsArgs, Reporting};
 use crate::output::{file, write_file};
+use crate::report::Reporter;
 use rungc_firmware::board::Board;
 use rungc_firmware::boards;
 use rungc_firmware::build::Tools;
@@ -22,8 +23,11 @@ pub fn run(args: &BoardsArgs, cx: Context) -> Result {
         print_text(&text)?;
         return Ok(Outcome::Success);
     };
-    let board =
-        boards::named_or_described(name).map_err(|error| Failure::Because(error.report()))?;
+    let board = boards::named_or_described(name).map_err(|error| {
+        let reporting = Reporting::default();
+        let mut reporter = Reporter::new(&reporting, cx, false);
+        subject::refuse_board(error, &reporting, &mut reporter)
+    })?;
     if args.toml {
         let text = match name.to_str().and_then(boards::find) {
             Some(known) => known.text.to_owned(),

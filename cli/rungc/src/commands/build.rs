@@ -63,7 +63,7 @@ fn build(
 ) -> Result {
     let target = fitting(plan, &subject.reporting)?;
     let read = read(subject, reporter)?;
-    let image = ForImage::of(plan, subject, &read.program)?;
+    let image = ForImage::of(plan, subject, &read.program, reporter)?;
     let name = plan.name.clone().unwrap_or_else(|| stem(subject, &read));
     let options = CompileOptions {
         name: Some(name.clone()),
@@ -174,15 +174,25 @@ struct ForImage {
 
 impl ForImage {
     /// That of the plan, if it is for a board.
-    fn of(plan: &Plan, subject: &Subject, program: &Program) -> Built<Option<Self>> {
+    fn of(
+        plan: &Plan,
+        subject: &Subject,
+        program: &Program,
+        reporter: &mut Reporter,
+    ) -> Built<Option<Self>> {
         let path = plan.board.as_ref();
-        let image = path.map(|path| ForImage::new((plan, path), subject, program));
+        let image = path.map(|path| ForImage::new((plan, path), subject, program, reporter));
         image.transpose()
     }
 
-    fn new((args, path): (&Plan, &Path), subject: &Subject, program: &Program) -> Built<Self> {
-        let board = boards::named_or_described(path);
-        let board = board.map_err(|error| Failure::Because(error.report()))?;
+    fn new(
+        (args, path): (&Plan, &Path),
+        subject: &Subject,
+        program: &Program,
+        reporter: &mut Reporter,
+    ) -> Built<Self> {
+        let board = boards::named_or_described(path)
+            .map_err(|error| subject::refuse_board(error, &subject.reporting, reporter))?;
         if let Some(target) = args.target.filter(|target| *target != board.target) {
             return Err(Failure::Because(format!(
                 "--target {}: {} is {}",

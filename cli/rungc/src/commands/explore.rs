@@ -8,7 +8,7 @@ mod test_file;
 
 use super::check::draw;
 use super::properties::{Reader, RequestedProperty, at_writes, module, report_undriven};
-use super::run::{because, hardware, recording::Recording};
+use super::run::{hardware, recording::Recording};
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, interruption, print_text, read};
 use crate::args::{ExploreArgs, Latched};
@@ -21,6 +21,7 @@ use rungc_explore::unvaried::unvaried;
 use rungc_explore::{Found, Limits, Task, What, search, shrink};
 use rungc_frontend::Read;
 use rungc_ir::Module;
+use rungc_sim::LoadError;
 use rungc_sim::plant;
 use rungc_sim::property::{Condition, Property};
 use rungc_sim::record::Seen;
@@ -83,9 +84,10 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
     };
     report_undriven(&requested, &read, &subject, &external, &mut reporter)?;
     let machine = args.machine.as_deref().map(plant::load).transpose();
-    let machine = machine.map_err(because)?;
+    let refuse = |error: LoadError| subject::refuse(error.into(), &subject.reporting, cx);
+    let machine = machine.map_err(refuse)?;
     if let Some(machine) = &machine {
-        machine.check(module.model).map_err(because)?;
+        machine.check(module.model).map_err(refuse)?;
     }
     let properties: Vec<Property> = requested
         .iter()

@@ -38,8 +38,8 @@ use rungc_frontend::{Read, image};
 use rungc_interp::rt_class;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
+use rungc_sim::Target;
 use rungc_sim::plant::{self, Axis, Description, Plant};
-use rungc_sim::{LoadError, Target};
 use rungc_syntax::{DeviceClass, Program, codes, inputs};
 pub use watch::STANDARD_ERROR;
 
@@ -93,7 +93,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
             return Err(failure);
         }
     };
-    let requested = Requested::of(args, &read.program)?;
+    let requested = Requested::of(args, (subject, cx), &read.program)?;
     let described = requested.machine.as_ref();
     let options = CompileOptions {
         name: Some(stem(subject, &read)),
@@ -117,7 +117,8 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     let listed = requested.shown(&read.program, &module);
     let has_table = table == Table::Usual || !requested.watched.is_empty();
     if let Some(machine) = described {
-        machine.check(module.model).map_err(because)?;
+        let checked = machine.check(module.model);
+        checked.map_err(|error| subject::refuse(error.into(), &subject.reporting, cx))?;
     }
     let connections =
         connecting::connections(wired_up, subject, (&module, described), &args.serve, cx)?;
@@ -190,7 +191,11 @@ struct Requested {
 }
 
 impl Requested {
-    fn of(args: &RunArgs, program: &Program) -> std::result::Result<Self, Failure> {
+    fn of(
+        args: &RunArgs,
+        about: (&Subject, Context),
+        program: &Program,
+    ) -> std::result::Result<Self, Failure> {
         let names = Names::of(program);
         let target = |option: &str, name: &str| {
             let target = names.target(name);
@@ -215,7 +220,7 @@ impl Requested {
                 .as_deref()
                 .map(|name| target("--over", name))
                 .transpose()?,
-            machine: machine(args, &settings)?,
+            machine: machine(args, about, &settings)?,
             settings,
         })
     }
@@ -279,10 +284,13 @@ fn page(
 /// The simulated machine, which drives none of the inputs that are set.
 fn machine(
     args: &RunArgs,
+    (subject, cx): (&Subject, Context),
     settings: &[Setting],
 ) -> std::result::Result<Option<Description>, Failure> {
     let described = args.machine.as_ref().map(|path| plant::load(path));
-    let described = described.transpose().map_err(because)?;
+    let described = described
+        .transpose()
+        .map_err(|error| subject::refuse(error.into(), &subject.reporting, cx))?;
     if let Some(machine) = &described {
         free_inputs(machine, settings)?;
     }
@@ -329,11 +337,6 @@ fn name(target: Target) -> String {
         Target::Current(class, n) => class.number(n).to_string(),
         other => other.to_string(),
     }
-}
-
-/// Failure to use the description of a machine.
-pub(super) fn because(error: LoadError) -> Failure {
-    Failure::Because(error.report())
 }
 
 /// Returns true if an axis follows an output at which the program never sends pulses.

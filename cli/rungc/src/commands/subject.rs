@@ -3,12 +3,13 @@
 use super::{Context, Failure, Outcome, Result, counted, counts, eprint_line, interruption};
 use crate::args::{Format, Input, Inputs, Reading, Reporting};
 use crate::report::{Findings, Reporter, breaks_lines, visible_line};
+use rungc_firmware::board::BoardError;
 use rungc_frontend::ReadOptions;
 use rungc_lower::compile::CompileOptions;
 use rungc_models::{ModelId, Plc, Variant};
 use rungc_project::serve::Serve;
 use rungc_project::{Error, FILE, Project};
-use rungc_syntax::{DeviceClass, Program, codes};
+use rungc_syntax::{DeviceClass, Diagnostics, Program, codes};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -246,6 +247,24 @@ pub fn refuse(error: Error, reporting: &Reporting, cx: Context) -> Failure {
     let mut reporter = Reporter::new(reporting, cx, false);
     let reported = report_invalid(error, reporting, &mut reporter);
     match reported.and_then(|()| Ok(reporter.finish()?)) {
+        Ok(()) => Failure::Reported,
+        Err(failure) => failure,
+    }
+}
+
+/// Reports what is wrong with the description of a board.
+pub fn refuse_board(error: BoardError, reporting: &Reporting, reporter: &mut Reporter) -> Failure {
+    let BoardError::Wrong { file, error } = error else {
+        return Failure::Because(error.to_string());
+    };
+    let mut diagnostics = Diagnostics::new();
+    diagnostics.push(*error);
+    let error = Error::Invalid {
+        path: PathBuf::from(&file.name),
+        text: file,
+        diagnostics,
+    };
+    match report_invalid(error, reporting, reporter) {
         Ok(()) => Failure::Reported,
         Err(failure) => failure,
     }

@@ -32,13 +32,13 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
         return watch::run(args, cx);
     }
     let chosen = Chosen::of(args, cx)?;
-    let files = match chosen.load(args) {
+    let files = match chosen.load(args, cx) {
         Ok(files) => files,
         Err(unread) => {
             if let Unread::Files(errors) = &unread {
                 broken::publish(args, errors, cx)?;
             }
-            return Err(unread.into());
+            return Err(unread.failure(cx));
         }
     };
     if args.coverage.is_some() || args.mutants {
@@ -83,7 +83,7 @@ impl Chosen {
     }
 
     /// The cases that are to run.
-    fn load(&self, args: &TestArgs) -> std::result::Result<Vec<TestFile>, Unread> {
+    fn load(&self, args: &TestArgs, cx: Context) -> std::result::Result<Vec<TestFile>, Unread> {
         let mut files = files::load(&self.paths, args.filter.as_deref())?;
         if files.is_empty() {
             return Err(Failure::Because("no cases to run".to_string()).into());
@@ -93,7 +93,7 @@ impl Chosen {
             files::keep(&mut files, shard);
         }
         if let Some(path) = &args.machine {
-            files::wire(&mut files, path)?;
+            files::wire(&mut files, path, cx)?;
         }
         Ok(files)
     }

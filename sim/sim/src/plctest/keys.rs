@@ -8,12 +8,14 @@ use serde::de::{Deserialize, Deserializer, Error as _, Visitor};
 /// Problems in which a key that another table has is said to belong there.
 pub(super) fn with_homes(mut problems: Vec<Problem>) -> Vec<Problem> {
     for problem in &mut problems {
-        let unknown = problem.message.strip_prefix("unknown field `");
-        let Some((key, _)) = unknown.and_then(|rest| rest.split_once("`, expected")) else {
+        let near = |help: &String| help.starts_with("did you mean");
+        let unknown = problem.message.strip_prefix("there is no key `");
+        let Some((key, _)) = unknown.and_then(|rest| rest.split_once('`')) else {
             continue;
         };
-        if let Some(home) = home(key) {
+        if let Some(home) = home(key).filter(|_| !problem.help.as_ref().is_some_and(near)) {
             problem.message = format!("`{key}` belongs {home}");
+            problem.help = None;
         }
     }
     problems

@@ -40,6 +40,7 @@ use rungc_models::{ModelId, Variant};
 use rungc_rt::Clock;
 use rungc_rt::modules::Kind;
 use rungc_syntax::Source;
+use rungc_syntax::codes::TEST_FILE;
 use serde::Deserialize;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -250,7 +251,8 @@ pub fn parse(name: &str, text: &str) -> Result<TestFile, LoadError> {
 
 fn parse_source(source: &Source) -> Result<TestFile, LoadError> {
     format::parse(source).map_err(|problems| LoadError::Format {
-        name: source.name.clone(),
+        code: &TEST_FILE,
+        file: Box::new(source.clone()),
         problems,
     })
 }
@@ -408,8 +410,8 @@ rejects = { code = 0 }
             ))
         };
         insta::assert_snapshot!(of("3"), @r#"t.plctest.toml:5:11: invalid type: integer `3`, expected an instruction list, or the path of a program: "machine.gxw""#);
-        insta::assert_snapshot!(of("{ path = 'x.il' }"), @"t.plctest.toml:5:13: unknown field `path`, expected `file`");
-        insta::assert_snapshot!(of("{}"), @"t.plctest.toml:5:11: missing field `file`");
+        insta::assert_snapshot!(of("{ path = 'x.il' }"), @"t.plctest.toml:5:13: there is no key `path`; valid names: file");
+        insta::assert_snapshot!(of("{}"), @"t.plctest.toml:5:11: missing key `file`");
     }
 
     #[test]
@@ -468,8 +470,27 @@ within = [{ ms = 5, expect = {} }]
     }
 
     #[test]
+    fn devices_that_each_scan_sets_cannot_be_set() {
+        let text = r#"model = "fx3u"
+topic = "t"
+[[case]]
+name = "a"
+program = "END"
+init = { M8011 = 1, D8000 = 300 }
+[[case.step]]
+set = { "K4M8000" = 0, X000 = 1, D8010 = 5 }
+expect = { M8000 = 1, D8010 = 100 }
+"#;
+        insta::assert_snapshot!(problems_of(text), @r"
+        t.plctest.toml:6:10: `M8011` cannot be set: each scan sets it (clock of 10 ms)
+        t.plctest.toml:8:9: `M8000` cannot be set: each scan sets it (on while the program runs)
+        t.plctest.toml:8:34: `D8010` cannot be set: each scan sets it (time of the scan in 0.1 ms)
+        ");
+    }
+
+    #[test]
     fn unknown_keys_are_mistakes() {
         let text = "model = \"h2u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\nprogram = \"END\"\n[[case.step]]\nscan = 1\n";
-        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: unknown field `scan`: did you mean `scans`?");
+        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: there is no key `scan`; did you mean `scans`?");
     }
 }

@@ -1,12 +1,26 @@
 //! Mistakes in test files, in the words of people who write them.
 
+use rungc_sim::LoadError;
 use rungc_sim::plctest::{self, Check, TestFile};
 use std::fmt::Write;
 
 /// A test file with this case.
 fn file(case: &str) -> Result<TestFile, String> {
     let text = format!("model = \"fx3u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\n{case}");
-    plctest::parse("t.plctest.toml", &text).map_err(|error| error.report())
+    plctest::parse("t.plctest.toml", &text).map_err(|error| marked(&error))
+}
+
+/// Mistakes, each with what a report marks below it.
+fn marked(error: &LoadError) -> String {
+    let LoadError::Format { file, problems, .. } = error else {
+        return error.to_string();
+    };
+    let name = &file.name;
+    let lines = problems.iter().map(|p| {
+        let token = &file.text[p.span.start as usize..p.span.end as usize];
+        format!("{name}:{}:{}: {p}\n    {token}", p.line, p.column)
+    });
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 fn step(step: &str) -> Result<TestFile, String> {

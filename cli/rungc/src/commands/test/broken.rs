@@ -58,13 +58,13 @@ fn mistakes(error: &LoadError) -> Vec<Mistake> {
             column: None,
             message: error.to_string(),
         }],
-        LoadError::Format { name, problems } => problems
+        LoadError::Format { file, problems, .. } => problems
             .iter()
             .map(|problem| Mistake {
-                file: PathBuf::from(name),
+                file: PathBuf::from(&file.name),
                 line: Some(problem.line),
                 column: Some(problem.column),
-                message: problem.message.clone(),
+                message: problem.to_string(),
             })
             .collect(),
     }

@@ -1,7 +1,7 @@
 //! Selection of test files and cases.
 
-use super::super::Failure;
-use crate::args::Shard;
+use super::super::{Context, Failure, eprint_line, subject};
+use crate::args::{Reporting, Shard};
 use rungc_sim::LoadError;
 use rungc_sim::plant;
 use rungc_sim::plctest::{self, Case, TestFile};
@@ -27,12 +27,18 @@ impl From<Failure> for Unread {
     }
 }
 
-impl From<Unread> for Failure {
-    fn from(unread: Unread) -> Self {
-        match unread {
+impl Unread {
+    /// The failure of the command; mistakes in files are reported.
+    pub fn failure(self, cx: Context) -> Failure {
+        match self {
             Unread::Files(errors) => {
-                let reports: Vec<_> = errors.iter().map(LoadError::report).collect();
-                Failure::Because(reports.join("\n"))
+                for error in errors {
+                    match subject::refuse(error.into(), &Reporting::default(), cx) {
+                        Failure::Reported => {}
+                        failure => eprint_line(&format!("rungc: {failure}")),
+                    }
+                }
+                Failure::Reported
             }
             Unread::Because(failure) => failure,
         }
@@ -88,8 +94,10 @@ pub fn is_in(shard: Shard, name: &str) -> bool {
 }
 
 /// Gives the machine of a file to cases that name none.
-pub fn wire(files: &mut [TestFile], path: &Path) -> std::result::Result<(), Failure> {
-    let described = plant::load(path).map_err(|error| Failure::Because(error.to_string()))?;
+pub fn wire(files: &mut [TestFile], path: &Path, cx: Context) -> std::result::Result<(), Failure> {
+    let described = plant::load(path);
+    let described =
+        described.map_err(|error| subject::refuse(error.into(), &Reporting::default(), cx))?;
     let described = Arc::new(described);
     for case in files.iter_mut().flat_map(|file| &mut file.cases) {
         case.machine.get_or_insert_with(|| Arc::clone(&described));

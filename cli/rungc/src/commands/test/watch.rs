@@ -3,7 +3,9 @@
 //! The files are looked at several times a second, which works on every file system, also on those of networks and
 //! containers, and with editors that replace a file.
 
-use super::super::{Context, Outcome, Result, eprint_line, interruption, is_output_closed};
+use super::super::{
+    Context, Failure, Outcome, Result, eprint_line, interruption, is_output_closed,
+};
 use super::{Chosen, files, run_files};
 use crate::args::TestArgs;
 use rungc_sim::plctest::TestFile;
@@ -28,7 +30,8 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
         let unread = look(args, &inputs);
         let chosen = Chosen::of(args, cx);
         let loaded = chosen.and_then(|chosen| {
-            let files = chosen.load(args)?;
+            let files = chosen.load(args, cx);
+            let files = files.map_err(|unread| unread.failure(cx))?;
             Ok((chosen, files))
         });
         // The inputs of a file are known once it can be read; until then, the previous ones apply.
@@ -46,6 +49,7 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
         match ran {
             Ok(outcome) if is_output_closed() => return Ok(outcome),
             Ok(_) => {}
+            Err(Failure::Reported) => {}
             Err(failure) => eprint_line(&format!("rungc: {failure}")),
         }
         cx.note("    Watching for changes; Ctrl-C ends");

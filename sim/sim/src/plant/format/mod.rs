@@ -13,6 +13,7 @@ use super::marks::{Marks, Switch};
 use crate::problem::{self, LoadError, Problem};
 use raw::{RawCylinder, RawDelay, RawEnd, RawMachine};
 use rungc_models::Model;
+use rungc_syntax::codes::MACHINE_FILE;
 use rungc_syntax::{DeviceClass, Source};
 use std::path::Path;
 use toml::Spanned;
@@ -72,7 +73,8 @@ impl Description {
             return Ok(());
         }
         Err(LoadError::Format {
-            name: self.source.name.clone(),
+            code: &MACHINE_FILE,
+            file: Box::new(self.source.clone()),
             problems,
         })
     }
@@ -105,7 +107,8 @@ fn describe(source: Source) -> Result<Description, LoadError> {
             terminals,
         }),
         Err(problems) => Err(LoadError::Format {
-            name: source.name,
+            code: &MACHINE_FILE,
+            file: Box::new(source),
             problems,
         }),
     }
