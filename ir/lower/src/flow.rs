@@ -567,7 +567,7 @@ impl Lowerer<'_> {
         }));
     }
 
-    /// A jump to the label whose number is `base` and the index (HM): to each of the labels that this may be.
+    /// A jump to the label whose number is `base` and the index: to each of the labels that this may be.
     fn indexed_jump(&mut self, cond: ExprId, base: u32, index: Index) {
         let cond = self.settled(cond);
         let index = self.index(index, false);
@@ -577,6 +577,12 @@ impl Lowerer<'_> {
             let meant = self.add(Expr::Cmp(CmpOp::Eq, index, offset));
             let cond = self.and(cond, meant);
             self.push_jump(cond, label);
+        }
+        if let Some(end) = self.model.end_pointer {
+            let offset = self.add(Expr::I32(end as i32 - base as i32));
+            let meant = self.add(Expr::Cmp(CmpOp::Eq, index, offset));
+            let cond = self.and(cond, meant);
+            self.when(cond, |this| this.emit(Stmt::Return));
         }
         let step = self.step();
         self.when(cond, |this| {
@@ -597,7 +603,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Calls the subroutine whose number is `base` and the index (HM): that one of them all.
+    /// Calls the subroutine whose number is `base` and the index: that one of them all.
     fn indexed_call(&mut self, base: u32, index: Index) {
         let index = self.index(index, false);
         let index = self.settled(index);

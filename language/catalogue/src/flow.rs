@@ -4,12 +4,13 @@ use super::row::*;
 use super::{Basic, Classes, Drive, Inst, Lower, Param};
 use rungc_syntax::DeviceClass;
 
-const LABEL: &[Param] = &[pointer("P", Classes::P)];
-/// HM's labels may carry an index register.
-const INDEXED_LABEL: &[Param] = &[Param {
+/// Pointers take index registers on FX (JY997D16601 §4.11, error 6701) and HM (hm-motion-controller §5.1.8);
+/// h1u-h2u-programming gives them none.
+const LABEL: &[Param] = &[Param {
     indexable: true,
     ..pointer("P", Classes::P)
 }];
+const PLAIN_LABEL: &[Param] = &[pointer("P", Classes::P)];
 /// P128 to P131 are encrypted subroutines, which can only be called.
 const JUMP_LABEL: &[Param] = &[pointer("P", Classes::P).numbers(&[(DeviceClass::P, 0, 127)])];
 
@@ -24,7 +25,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(3, 3)
         .takes(LABEL)
-        .variants(&[on(HM).takes(INDEXED_LABEL), on(INOVANCE).takes(JUMP_LABEL)])
+        .variants(&[on(INOVANCE).takes(JUMP_LABEL)])
         .errors(&[6701])
         .example("LD X000\nCJ P0\nLD X001\nOUT Y000\nP0\nLD X002\nOUT Y001")
         .text(
@@ -34,7 +35,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(3, 3)
         .takes(LABEL)
-        .variants(&[on(HM).takes(INDEXED_LABEL)])
+        .variants(&[on(INOVANCE).takes(PLAIN_LABEL)])
         .errors(&[6701, 6702])
         .example("LD X000\nCALL P0\nFEND\nP0\nLD X001\nOUT Y000\nSRET")
         .text("Runs the subroutine at the label up to SRET while driven, then continues after the CALL."),
