@@ -293,6 +293,7 @@ const fn inverter(name: &'static str, fnc: u16, title: &'static str, text: &'sta
 const fn cassette(name: &'static str, fnc: u16, title: &'static str, text: &'static str) -> Inst {
     row(name, title, "public knowledge of FX3U")
         .fnc(fnc)
+        .forms(W16_P)
         .steps(5, 5)
         .on(FX3U)
         .todo(CASSETTE)
@@ -567,6 +568,7 @@ pub(super) const ROWS: &[Inst] = &[
         .twin(DeviceClass::ER)
         .call(RtFn::Loadr),
     cassette("SAVER", 291, "Save to extension file registers", "Writes 2048 words from S on to ER, n words in each scan; D counts.")
+        .forms(W16)
         .steps(7, 7)
         .takes(&[src("S", Classes::R).len(2048), number("n", 2048), dst("D", Classes::D)])
         .flags(&["M8029"])
@@ -595,19 +597,25 @@ pub(super) const ROWS: &[Inst] = &[
         .twin(DeviceClass::ER)
         .call(RtFn::Initer),
     cassette("FLCRT", 300, "Create a file", "Creates or checks a file of the data logger: name S1, settings S2, S3.")
+        .forms(W16)
         .steps(7, 7)
         .takes(&[text("S1", DATA.or(CONSTANTS)), src("S2", DATA).open_ended(), any("S3")]),
     cassette("FLDEL", 301, "Delete a file", "Deletes files of the data logger: name S1, what S2, result in n.")
+        .forms(W16)
         .steps(7, 7)
         .takes(&[text("S1", DATA.or(CONSTANTS)), any("S2"), any("n")]),
     cassette("FLWR", 302, "Write to a file", "Writes the values at S2 to file S1 of the data logger from place S3 on.")
+        .forms(W16)
         .steps(11, 11)
         .takes(&[any("S1"), src("S2", DATA).open_ended(), any("S3"), dst("D1", DATA).len(2), any("D2")]),
     cassette("FLRD", 303, "Read from a file", "Reads n values from place S2 of file S1 of the data logger to D1.")
+        .forms(W16)
         .steps(11, 11)
         .takes(&[any("S1"), src("S2", DATA).open_ended(), dst("D1", DATA).open_ended(), dst("D2", DATA), any("n")]),
     cassette("FLCMD", 304, "Command a data logger", "Sends command S to the data logger.")
+        .forms(W16)
         .takes(&[any("S"), any("n")]),
     cassette("FLSTRD", 305, "Read a data logger's state", "Reads state S of the data logger to D.")
+        .forms(W16)
         .takes(&[any("S"), dst("D", DATA).open_ended(), any("n")]),
 ];
