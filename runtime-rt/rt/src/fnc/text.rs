@@ -394,7 +394,7 @@ pub fn estr(cx: &mut Cx) -> Done {
         return Err(Fault::DEVICE);
     }
     let mut number = Buffer::new();
-    let magnitude = value.abs();
+    let magnitude = half_up(value.abs());
     let fraction = fraction as usize;
     let written = if mode == 0 {
         write!(number, "{magnitude:.fraction$}")
@@ -416,6 +416,16 @@ pub fn estr(cx: &mut Cx) -> Done {
         .iter()
         .try_for_each(|&byte| text.push(byte))?;
     write_buffer(cx, 2, &text)
+}
+
+/// The same number, a last bit of the wider format larger: `write!` rounds an exact half to even, ESTR rounds it up.
+fn half_up(magnitude: f32) -> f64 {
+    let exact = f64::from(magnitude);
+    if magnitude == 0.0 {
+        exact
+    } else {
+        f64::from_bits(exact.to_bits() + 1)
+    }
 }
 
 /// Turns `1.5e-3` into `1.5E-03`.
