@@ -516,6 +516,23 @@ impl Lowerer<'_> {
         Target::Pair(self.place(device, index, count, wide_index, guards))
     }
 
+    /// Device that is element `element` of a result at `device`.
+    fn element(&self, device: Device, element: u32, wide: bool) -> Device {
+        if device.class == DeviceClass::Z && self.model.z_pairs_with_v && !wide {
+            // Zn and Vn follow each other: D8028 and D8029, D8182 and D8183.
+            return Device {
+                class: [DeviceClass::Z, DeviceClass::V][element as usize % 2],
+                number: device.number.saturating_add(element / 2),
+            };
+        }
+        let counter32 = is_counter32(device.class, device.number);
+        let width = if wide && !counter32 { 2 } else { 1 };
+        Device {
+            number: device.number.saturating_add(element * width),
+            ..device
+        }
+    }
+
     /// Element `element` of a result that begins at an operand: elements are as wide as the result, `wide_index` is the
     /// instruction's form.
     pub(super) fn target(
@@ -528,12 +545,7 @@ impl Lowerer<'_> {
     ) -> Target {
         match *operand {
             OperandKind::Device(device, index) => {
-                let counter32 = is_counter32(device.class, device.number);
-                let width = if wide && !counter32 { 2 } else { 1 };
-                let device = Device {
-                    number: device.number.saturating_add(element * width),
-                    ..device
-                };
+                let device = self.element(device, element, wide);
                 self.word_target(device, index, wide, wide_index, guards)
             }
             OperandKind::Nibbles(digits, device, index) => {

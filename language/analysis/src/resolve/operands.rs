@@ -320,7 +320,8 @@ impl Checker {
         param: &Param,
     ) -> Option<Diagnostic> {
         let half = device.class == DeviceClass::V && self.model.z_pairs_with_v;
-        (half && words(matched.found, param) == 2).then(|| {
+        let is_pair = words(matched.found, param) == 2 || matches!(param.extent, Extent::Count(2));
+        (half && is_pair).then(|| {
             let mnemonic = &matched.instr.mnemonic;
             let message =
                 format!("`{device}` is only the upper half of the operand of `{mnemonic}`");
@@ -350,7 +351,11 @@ impl Checker {
         }
         let class = device.class;
         let kind = OperandKind::Device(device, None);
-        let values = extent(&matched.instr.operands, param.extent_of(&kind));
+        let values = match param.extent_of(&kind) {
+            // Both words of a result at Z: Zn and Vn.
+            Extent::Count(2) if class == DeviceClass::Z && self.model.z_pairs_with_v => 1,
+            count => extent(&matched.instr.operands, count),
+        };
         let each = match class {
             _ if each > 1 => each,
             DeviceClass::V | DeviceClass::Z if self.model.z_pairs_with_v => 1,
