@@ -68,13 +68,17 @@ impl Lowerer<'_> {
 
     /// HCMOV. The ring counter of tenths of milliseconds is one word.
     pub(super) fn move_count(&mut self) {
-        let (Some(&OperandKind::Device(counter, None)), Some(clear)) =
-            (self.operand(0), self.operand(2))
-        else {
+        let Some(&OperandKind::Device(counter, None)) = self.operand(0) else {
             return;
         };
-        let clear = matches!(clear, OperandKind::Decimal(1, _) | OperandKind::Hex(1, _));
         let mut guards = Guards::default();
+        let clear = match self.operand(2).and_then(OperandKind::constant) {
+            Some(n) => self.bit_const(n == 1),
+            None => {
+                let (n, one) = (self.source(2, &mut guards), self.int(1, true));
+                self.add(Expr::Cmp(CmpOp::Eq, n, one))
+            }
+        };
         let from = OperandKind::Device(counter, None);
         let is_word = counter.class == DeviceClass::D && counter.number == D_RING_COUNTER.number();
         let mut value = self.value(&from, !is_word, &mut guards);
@@ -84,11 +88,13 @@ impl Lowerer<'_> {
         let target = self.result(1, &mut guards);
         let cleared = self.target(&from, 0, !is_word, !is_word, &mut guards);
         self.guarded(guards, |this| {
-            this.store(target, value);
-            if clear {
-                let zero = this.int(0, !is_word);
-                this.store(cleared, zero);
-            }
+            this.within_limits(None, |this, _| {
+                this.store(target, value);
+                this.when(clear, |this| {
+                    let zero = this.int(0, !is_word);
+                    this.store(cleared, zero);
+                });
+            });
         });
     }
 

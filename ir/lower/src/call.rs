@@ -53,16 +53,18 @@ impl Lowerer<'_> {
         let call = |this: &mut Self, drive| {
             let guards = this.bounds_hold();
             this.guarded_while(guards, drive, |this| {
-                let args = this.args();
-                this.emit(Action::Call(Call {
-                    function,
-                    wide: form.wide,
-                    args,
-                    drive,
-                    signal: false,
-                    slot,
-                    step,
-                }));
+                this.within_limits(drive, |this, drive| {
+                    let args = this.args();
+                    this.emit(Action::Call(Call {
+                        function,
+                        wide: form.wide,
+                        args,
+                        drive,
+                        signal: false,
+                        slot,
+                        step,
+                    }));
+                });
             });
         };
         if needs.always {

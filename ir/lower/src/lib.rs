@@ -35,6 +35,7 @@ mod high_speed;
 mod inline;
 mod input_axes;
 mod interrupt;
+mod limits;
 mod logic;
 pub mod marks;
 mod name;

@@ -12,7 +12,7 @@ use rungc_rt::CmpOp;
 use rungc_syntax::{Device, DeviceClass, Index, OperandKind, Span, codes};
 
 /// A device lies outside the model's range.
-const OUT_OF_RANGE: u16 = 6706;
+pub(super) const OUT_OF_RANGE: u16 = 6706;
 
 /// Conditions under which an instruction's operands exist; where one does not hold the instruction faults.
 #[derive(Default)]

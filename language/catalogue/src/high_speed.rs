@@ -367,7 +367,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             src("S", Classes::C.or(Classes::D)).plain().numbers(COUNTS),
             dst("D", DATA),
-            count("n", 0, 1),
+            count("n", 0, 1).checked(),
         ])
         .lower(Lower::MoveCount)
         .text("D = the present value of counter S; with n = 1 the counter is then set to 0."),

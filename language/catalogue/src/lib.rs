@@ -189,6 +189,9 @@ pub struct Param {
     pub extent: Extent,
     /// Allowed constants.
     pub limits: Limits,
+    /// True if compiled code holds a constant with an index register to the limits: the runtime's function, which other
+    /// models share, accepts more.
+    pub checked: bool,
     /// Numbers that devices of these classes must have, first to last; classes that are not listed are free.
     pub numbers: &'static [(DeviceClass, u32, u32)],
     /// True for an output that sends pulses: one of the model's, unless `numbers` says more.

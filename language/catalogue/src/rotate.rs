@@ -20,7 +20,12 @@ const ROTATE_HM: &[Param] = &[
         .also(DATA)
         .rules(&[Rule::WideLimits(1, 32)]),
 ];
-const ROTATE_INOVANCE: &[Param] = &[ROTATED, count("n", 1, 16).rules(&[Rule::WideLimits(1, 32)])];
+const ROTATE_INOVANCE: &[Param] = &[
+    ROTATED,
+    count("n", 1, 16)
+        .checked()
+        .rules(&[Rule::WideLimits(1, 32)]),
+];
 const ROTATE_CARRY_HM: &[Param] = &[ROTATED, count("n", 1, 15).rules(&[Rule::WideLimits(1, 31)])];
 
 const fn shift_bits(n1: Param, n2: Param) -> [Param; 4] {
@@ -39,7 +44,7 @@ const SHIFT_BITS: &[Param] = &shift_bits(
         .rules(&[Rule::AtMost(2)]),
 );
 const SHIFT_BITS_H1U: &[Param] = &shift_bits(
-    count("n1", 1, 256),
+    count("n1", 1, 256).checked(),
     count("n2", 0, 256).rules(&[Rule::AtMost(2)]),
 );
 const SHIFT_BITS_HM: &[Param] = &shift_bits(
@@ -53,7 +58,7 @@ const fn shift_words(max: i64) -> [Param; 4] {
         both("D", RESULTS.without(INDEX))
             .per(2)
             .rules(&[Rule::SameDigits(0)]),
-        count("n1", 1, max),
+        count("n1", 1, max).checked(),
         count("n2", 0, max)
             .also_on(LIKE_FX3, DATA)
             .rules(&[Rule::AtMost(2)]),
@@ -68,15 +73,17 @@ const SHIFT_WORDS_HM: &[Param] = &[
     both("D", RESULT_GROUPS.or(REGISTERS))
         .per(2)
         .rules(&[Rule::SameDigits(0), Rule::WordsWith(0)]),
-    count("n1", 1, 512).rules(&[Rule::GroupAtMost(1, 64)]),
-    count("n2", 1, 512).rules(&[Rule::AtMost(2)]),
+    count("n1", 1, 512)
+        .checked()
+        .rules(&[Rule::GroupAtMost(1, 64)]),
+    count("n2", 1, 512).checked().rules(&[Rule::AtMost(2)]),
 ];
 
 const fn enqueue(max: i64, rules: &'static [Rule]) -> [Param; 3] {
     [
         src("S", WORDS).also_on(LIKE_FX, CONSTANTS),
         both("D", RESULTS).per(2).rules(rules),
-        count("n", 2, max),
+        count("n", 2, max).checked(),
     ]
 }
 
@@ -84,7 +91,7 @@ const fn dequeue(max: i64, rules: &'static [Rule]) -> [Param; 3] {
     [
         both("S", RESULTS).per(2),
         dst("D", RESULTS).rules(rules),
-        count("n", 2, max),
+        count("n", 2, max).checked(),
     ]
 }
 
@@ -94,14 +101,18 @@ const ENQUEUE_HM: &[Param] = &[
     both("D", RESULT_GROUPS.or(REGISTERS))
         .per_and(2, 1)
         .rules(&[Rule::SameDigits(0), Rule::GroupLike(0)]),
-    count("n", 2, 512).rules(&[Rule::GroupAtMost(1, 64)]),
+    count("n", 2, 512)
+        .checked()
+        .rules(&[Rule::GroupAtMost(1, 64)]),
 ];
 const ENQUEUE_FX: &[Param] = &enqueue(512, &[]);
 const DEQUEUE: &[Param] = &dequeue(2048, &[Rule::SameDigits(0)]);
 const DEQUEUE_HM: &[Param] = &[
     both("S", GROUPS.or(REGISTERS)).per_and(2, 1),
     dst("D", RESULT_GROUPS.or(REGISTERS)).rules(&[Rule::SameDigits(0), Rule::GroupLike(0)]),
-    count("n", 2, 512).rules(&[Rule::GroupAtMost(0, 64)]),
+    count("n", 2, 512)
+        .checked()
+        .rules(&[Rule::GroupAtMost(0, 64)]),
 ];
 const DEQUEUE_FX: &[Param] = &dequeue(512, &[]);
 

@@ -233,6 +233,7 @@ const fn param(name: &'static str, classes: Classes, shape: Shape, role: Role) -
         role,
         extent: Extent::One,
         limits: Limits::None,
+        checked: false,
         numbers: &[],
         sends_pulses: false,
         keeps_position: false,
@@ -396,6 +397,12 @@ impl Param {
     pub(super) const fn among(self, ranges: &'static [(i64, i64)]) -> Self {
         let limits = Limits::Among(ranges);
         Param { limits, ..self }
+    }
+
+    /// Compiled code holds constants with an index register to the limits.
+    pub(super) const fn checked(self) -> Self {
+        let checked = true;
+        Param { checked, ..self }
     }
 
     /// Devices of these classes have these numbers.

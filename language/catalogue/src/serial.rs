@@ -234,6 +234,15 @@ const PID: &[Param] = &[
     both("S3", DATA).len(25),
     both("D", DATA),
 ];
+/// The parameters lie below the special registers (h1u-h2u-programming §4.3.9).
+const PID_INOVANCE: &[Param] = &[
+    src("S1", DATA),
+    src("S2", DATA),
+    both("S3", DATA)
+        .len(25)
+        .numbers(&[(DeviceClass::D, 0, 7975)]),
+    both("D", DATA),
+];
 /// 25 words, as on the others; without alarms and limits of the output 20, for tuning by limit cycle 29 (FX3
 /// programming manual 16.7).
 const PID_FX3: &[Param] = &[
@@ -398,7 +407,7 @@ pub(super) const ROWS: &[Inst] = &[
         .text("As RS, on port n1. On FX3 and L01S a header, a terminator and a sum may stand around the data."),
     serial("PID", 88, "PID control")
         .takes(PID)
-        .variants(&[on(FX3).takes(PID_FX3), on(L01S).takes(PID_L01S)])
+        .variants(&[on(INOVANCE).takes(PID_INOVANCE), on(FX3).takes(PID_FX3), on(L01S).takes(PID_L01S)])
         .errors(&[6706, 6730, 6732, 6733, 6734, 6735, 6736, 6740, 6742, 6748, 6749])
         .call(RtFn::Pid)
         .lower_on(&[

@@ -15,6 +15,7 @@ mod faults;
 mod inlined;
 mod lanes;
 mod licences;
+mod limits;
 mod links;
 mod machine_code;
 mod machines;

@@ -333,6 +333,14 @@ impl Ports {
         matches!(self, Ports::Fx3 | Ports::Fx3g | Ports::Board3u)
     }
 
+    /// The longest transfer of RS and RS2, in bytes: 256 (h1u-h2u-programming §4.3.9), 4096 on FX (JY992D48301 §5.9.1).
+    pub const fn longest_transfer(self) -> i32 {
+        match self {
+            Ports::Inovance | Ports::L01s => 256,
+            _ => 4096,
+        }
+    }
+
     /// The port on which RS works.
     pub const fn of_rs(self) -> u8 {
         match self {

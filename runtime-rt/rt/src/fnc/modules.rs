@@ -34,9 +34,12 @@ impl RtFn {
     }
 }
 
-/// The run of terminals that operand 0 and the count in operand 1 name.
+/// The run of terminals that operand 0 and the count in operand 1, a multiple of 8, name.
 fn terminals(cx: &Cx) -> Result<(Class, core::ops::Range<u16>), Fault> {
-    let count = cx.count(1, 1..=256)?;
+    let count = cx.count(1, 8..=256)?;
+    if count % 8 != 0 {
+        return Err(Fault::VALUE);
+    }
     let op = cx.ops.first().ok_or(Fault::DEVICE)?;
     let end = op
         .value

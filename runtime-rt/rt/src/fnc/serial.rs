@@ -165,9 +165,6 @@ pub fn rs2(cx: &mut Cx) -> Done {
     }
 }
 
-/// The longest transfer in bytes: 256 on H1U and H2U; FX takes up to 4096.
-const LONGEST: i32 = 4096;
-
 /// Returns true if a word always contains two characters: RS2 of FX3 has no mode of eight bits (FX data communication
 /// manual, part F, §8.2.3).
 fn packs(cx: &Cx, number: u8) -> bool {
@@ -202,8 +199,9 @@ fn transfer(cx: &mut Cx, number: u8) -> Done {
         return Ok(());
     }
     let one_a_word = cx.special(M_BYTE_MODE) && !packs(cx, number);
-    let send = cx.count(1, 0..=LONGEST)?;
-    let receive = cx.count(3, 0..=LONGEST)?;
+    let longest = cx.plc.ports().longest_transfer();
+    let send = cx.count(1, 0..=longest)?;
+    let receive = cx.count(3, 0..=longest)?;
     cx.check_bytes(0, send, one_a_word)?;
     cx.check_bytes(2, receive, one_a_word)?;
     let (source, target) = match cx.ops {

@@ -1,0 +1,124 @@
+//! Limits of operands that an index register changes, where the runtime's function accepts more than the model.
+
+use super::Lowerer;
+use super::operand::OUT_OF_RANGE;
+use rungc_catalogue::{Limits, Param, Rule};
+use rungc_ir::node::{Action, BinOp, Branch, Expr, ExprId, Stmt};
+use rungc_rt::CmpOp;
+use rungc_syntax::{Index, OperandKind};
+
+impl Lowerer<'_> {
+    /// Emits what `make` does if the operands are within the model's limits; else the instruction faults. What is
+    /// executed driven or not, if `drive` is given, is not held to them while it is not driven.
+    pub(super) fn within_limits(
+        &mut self,
+        drive: Option<ExprId>,
+        make: impl FnOnce(&mut Self, Option<ExprId>),
+    ) {
+        let checks = self.limit_checks();
+        if checks.is_empty() {
+            return make(self, drive);
+        }
+        let drive = drive.map(|drive| self.settled(drive));
+        let (conds, codes): (Vec<_>, Vec<_>) = checks.into_iter().unzip();
+        let step = self.step();
+        let mut stmts = self.body(|this| make(this, drive));
+        for (cond, code) in conds.into_iter().zip(codes).rev() {
+            let cond = match drive {
+                Some(drive) => {
+                    let off = self.not(drive);
+                    self.or(off, cond)
+                }
+                None => cond,
+            };
+            stmts = vec![Stmt::If(Branch {
+                cond,
+                then: stmts,
+                otherwise: vec![Stmt::Do(Action::Fault { code, step })],
+            })];
+        }
+        for stmt in stmts {
+            self.emit(stmt);
+        }
+    }
+
+    /// Conditions that operands with an index are within the model's limits, with the codes of their faults.
+    fn limit_checks(&mut self) -> Vec<(ExprId, u16)> {
+        let params = self.resolution().params;
+        let operands = self.instr().operands.iter().map(|operand| &operand.kind);
+        let indexed = operands.zip(params).filter_map(|(kind, param)| {
+            let of_constant = |value, index| {
+                let limits = self.constant_limits(param).filter(|_| param.checked);
+                Some((value, index, limits?, true))
+            };
+            match *kind {
+                OperandKind::Decimal(value, Some(index)) => of_constant(value, index),
+                OperandKind::Hex(value, Some(index)) => of_constant(value as i64, index),
+                OperandKind::Device(device, Some(index)) => {
+                    let numbers = param.numbers_on(self.model).iter();
+                    let of_class = numbers.filter(|numbers| numbers.0 == device.class);
+                    let range = of_class
+                        .map(|&(_, first, last)| (i64::from(first), i64::from(last)))
+                        .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
+                    Some((device.number.into(), index, range, false))
+                }
+                _ => None,
+            }
+        });
+        let indexed: Vec<_> = indexed.collect();
+        let checks = indexed
+            .into_iter()
+            .flat_map(|(base, index, range, constant)| {
+                let code = if constant {
+                    self.model.value_error
+                } else {
+                    OUT_OF_RANGE
+                };
+                let conds = self.index_conditions(base as i32, index, range, constant);
+                conds.map(|cond| (cond, code))
+            });
+        checks.collect()
+    }
+
+    /// Limits of a constant in the form at hand.
+    fn constant_limits(&self, param: &Param) -> Option<(i64, i64)> {
+        let wide = self.wide();
+        let of_wide_form = param.rules.iter().find_map(|rule| match *rule {
+            Rule::WideLimits(min, max) if wide => Some((min, max)),
+            _ => None,
+        });
+        match param.limits {
+            Limits::Between(range) => Some(of_wide_form.unwrap_or(range)),
+            Limits::None | Limits::Among(_) => of_wide_form,
+        }
+    }
+
+    /// Conditions that a constant or a number of a device is in a range after its index is added.
+    fn index_conditions(
+        &mut self,
+        base: i32,
+        index: Index,
+        (low, high): (i64, i64),
+        constant: bool,
+    ) -> [ExprId; 2] {
+        let wide = self.wide();
+        let index = match constant {
+            true => {
+                let index = self.constant_index(index, wide);
+                if wide {
+                    index
+                } else {
+                    self.add(Expr::Widen(index))
+                }
+            }
+            false => self.index(index, wide),
+        };
+        let base = self.add(Expr::I32(base));
+        let value = self.add(Expr::Bin(BinOp::Add, base, index));
+        let value = self.settled(value);
+        [(CmpOp::Ge, low), (CmpOp::Le, high)].map(|(op, end)| {
+            let end = self.add(Expr::I32(end as i32));
+            self.add(Expr::Cmp(op, value, end))
+        })
+    }
+}
