@@ -9,7 +9,8 @@ use rungc_ir::node::{
 };
 use rungc_models::runs::rt_class;
 use rungc_rt::{
-    Class, Cx, EdgeKind, Fault, Hal, Operand, Plc, Site, Stop, TimerKind, fetch, report, send,
+    Class, Cx, EdgeKind, Fault, Hal, Operand, Plc, Site, Stop, TimerKind, conclude, fetch, report,
+    send,
 };
 use rungc_syntax::DeviceClass;
 
@@ -351,9 +352,7 @@ impl<'m> Machine<'m> {
         ops.extend(call.args.iter().map(|arg| self.operand(arg)));
         let done = call.function.call(&mut Cx::new(self, hal, &ops, site));
         self.operands = ops;
-        if let Err(fault) = done {
-            report(self, fault, call.step);
-        }
+        conclude(done, site, self);
     }
 
     fn fetch(&mut self, operand: &Fetch, hal: &mut dyn Hal) {

@@ -32,7 +32,13 @@ pub fn call(
     hal: &mut dyn Hal,
 ) {
     let done = function(&mut Cx::new(plc, hal, ops, site));
-    if let Err(fault) = done {
+    conclude(done, site, plc);
+}
+
+/// Reports the fault of an instruction. One that is not driven only ends what it did: it has none, whatever its
+/// operands are.
+pub fn conclude(done: Done, site: Site, plc: &mut dyn Plc) {
+    if let (Err(fault), true) = (done, site.drive) {
         report(plc, fault, site.step);
     }
 }

@@ -6,8 +6,8 @@ use crate::axis::Axis;
 use crate::comm::codec::Codec;
 use crate::comm::modbus::{self, Profile};
 use crate::comm::{PortMut, PortWiring, Ports};
-use crate::cx::Cx;
-use crate::fault::{Done, ErrorRules, report};
+use crate::cx::{Cx, conclude};
+use crate::fault::{Done, ErrorRules};
 use crate::operand::Operand;
 use crate::plc::{Class, Plc, Site, State, StoredRun, Sys};
 use crate::runs::FIRST_COUNTER32;
@@ -222,9 +222,7 @@ impl Map {
     pub(super) fn call(&mut self, function: fn(&mut Cx) -> Done, site: Site, ops: &[Operand]) {
         let mut hal = Board::new(self.hal);
         let done = function(&mut Cx::new(self, &mut hal, ops, site));
-        if let Err(fault) = done {
-            report(self, fault, site.step);
-        }
+        conclude(done, site, self);
     }
 }
 

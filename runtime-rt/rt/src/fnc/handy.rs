@@ -64,7 +64,6 @@ pub fn incd(cx: &mut Cx) -> Done {
         return Ok(());
     }
     let n = cx.count(3, 1..=64)?;
-    cx.check_words(0, n)?;
     cx.check_words(1, 2)?;
     cx.check_bits(2, n)?;
     if !cx.drive() {
@@ -72,6 +71,7 @@ pub fn incd(cx: &mut Cx) -> Done {
         cx.reset(1, 1)?;
         return (0..n).try_for_each(|bit| cx.set_bit(2, bit, false));
     }
+    cx.check_words(0, n)?;
     let step = i32::from(cx.word(1, 1)?);
     let step = if (0..n).contains(&step) { step } else { 0 };
     let reached = cx.word(1, 0)? >= cx.word(0, step)?;
@@ -197,15 +197,15 @@ pub fn ramp(cx: &mut Cx) -> Done {
 /// is its position. D+3 to D+7: fast forward, slow forward, stop, slow reverse, fast reverse. Memory: phase A of the
 /// last scan; whether that scan drove it.
 pub fn rotc(cx: &mut Cx) -> Done {
-    let places = cx.count(1, 2..=32_767)?;
-    let slow = cx.count(2, 0..=places)?;
-    cx.check_words(0, 3)?;
     cx.check_bits(3, 8)?;
     let last_a = cx.state().0[0];
     let driven = cx.was_driven(1);
     if !cx.drive() {
         return (3..8).try_for_each(|bit| cx.set_bit(3, bit, false));
     }
+    let places = cx.count(1, 2..=32_767)?;
+    let slow = cx.count(2, 0..=places)?;
+    cx.check_words(0, 3)?;
     let (a, b) = (cx.bit(3, 0)?, cx.bit(3, 1)?);
     cx.state().0[0] = a.into();
     let mut position = i32::from(cx.word(0, 0)?);

@@ -167,14 +167,15 @@ pub fn dsw(cx: &mut Cx) -> Done {
 pub fn mtr(cx: &mut Cx) -> Done {
     let dt = cx.dt_ms();
     let driven = cx.was_driven(2);
-    let columns = cx.count(3, 2..=8)?;
     if !cx.drive() {
         if driven {
             cx.state().0 = [0; 8];
+            let columns = cx.count(3, 2..=8)?;
             cx.set_bits(1, 0, columns, 0)?;
         }
         return Ok(());
     }
+    let columns = cx.count(3, 2..=8)?;
     let inputs = cx.bits(0, 0, 8)?;
     let stride = if cx.is_octal(2) { 8 } else { 10 };
     cx.check_bits(1, columns)?;
