@@ -183,6 +183,7 @@ impl Double {
     pub fn scan(&mut self, dt_ms: u32, drive: bool, function: RtFn, ops: &[Operand]) -> Done {
         self.sys.dt_ms = dt_ms;
         self.sys.now_ms = self.sys.now_ms.wrapping_add(dt_ms);
+        self.sys.scan = self.sys.scan.wrapping_add(2);
         self.sys.first_scan = false;
         self.hal.advance_to(self.sys.now_ms);
         self.site.drive = drive;

@@ -368,10 +368,10 @@ registry! {
     Vrsc = modules::vrsc(s, d) [hal];
     Rbfm = modules::rbfm(m1, m2, d, n1, n2) [state, always, hal];
     Wbfm = modules::wbfm(m1, m2, s, n1, n2) [state, always, hal];
-    Pid = pid::pid(s1, s2, s3, d);
-    PidTuning = pid::pid_tuning(s1, s2, s3, d);
-    PidChecked = pid::pid_checked(s1, s2, s3, d);
-    PidHm = pid::pid_hm(s1, s2, s3, d);
+    Pid = pid::pid(s1, s2, s3, d) [state];
+    PidTuning = pid::pid_tuning(s1, s2, s3, d) [state];
+    PidChecked = pid::pid_checked(s1, s2, s3, d) [state];
+    PidHm = pid::pid_hm(s1, s2, s3, d) [state];
     PidThermal = pid_thermal::pid_thermal(s1, s2, s3, d) [state];
     Loadr = cassette::loadr(s, n, er);
     Saver = cassette::saver(s, n, d, er) [state, always];

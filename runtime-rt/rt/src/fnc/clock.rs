@@ -314,7 +314,7 @@ pub fn clock_refresh_short(cx: &mut Cx) -> Done {
 /// (seconds of the hour); D2 is on from S hours on. Stops at the most that D1 holds. Memory: milliseconds of the
 /// second; whether the last scan drove it.
 pub fn hour(cx: &mut Cx) -> Done {
-    let dt = cx.dt_ms();
+    let dt = cx.elapsed_ms();
     if !cx.drive() {
         cx.state().0[1] = 0;
         return Ok(());

@@ -135,7 +135,7 @@ const ANNUNCIATOR_LAST: u32 = 999;
 /// ANS S m D (FNC 46): sets annunciator D once the drive has been on for m times 100 ms; timer S shows the time and
 /// starts over with each drive. Memory: time driven in milliseconds; whether the last scan drove it.
 pub fn ans(cx: &mut Cx) -> Done {
-    let dt = cx.dt_ms();
+    let dt = cx.elapsed_ms();
     if !cx.drive() {
         if cx.state().0[1] != 0 {
             cx.state().0 = [0; 8];

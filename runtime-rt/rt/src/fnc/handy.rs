@@ -90,7 +90,7 @@ pub fn incd(cx: &mut Cx) -> Done {
 /// TTMR D n (FNC 64): D takes how long the drive is on, in seconds times 10ⁿ, and keeps it; D+1 shows it in 100 ms
 /// meanwhile. Memory: milliseconds; whether the last scan drove it.
 pub fn ttmr(cx: &mut Cx) -> Done {
-    let dt = cx.dt_ms();
+    let dt = cx.elapsed_ms();
     let driven = cx.was_driven(1);
     if !cx.drive() {
         return if driven { cx.set_word(0, 1, 0) } else { Ok(()) };
@@ -116,7 +116,7 @@ pub fn ttmr(cx: &mut Cx) -> Done {
 /// Memory: milliseconds since the drive changed; 1 after it came on, 2 after it went off, 0 long after; D+3 when it
 /// went off.
 pub fn stmr(cx: &mut Cx) -> Done {
-    let dt = cx.dt_ms();
+    let dt = cx.elapsed_ms();
     let [ms, phase, late, ..] = cx.state().0;
     if !cx.drive() && phase == 0 {
         return Ok(());

@@ -119,7 +119,7 @@ fn take_hexadecimal_key(cx: &mut Cx, pressed: u32) -> Done {
 ///
 /// Memory: the digit; milliseconds of it; the numbers so far; whether the last scan drove it.
 pub fn dsw(cx: &mut Cx) -> Done {
-    let dt = cx.dt_ms();
+    let dt = cx.elapsed_ms();
     let driven = cx.was_driven(4);
     if !cx.drive() {
         if driven {
@@ -165,7 +165,7 @@ pub fn dsw(cx: &mut Cx) -> Done {
 ///
 /// Memory: the column; milliseconds of it; whether the last scan drove it.
 pub fn mtr(cx: &mut Cx) -> Done {
-    let dt = cx.dt_ms();
+    let dt = cx.elapsed_ms();
     let driven = cx.was_driven(2);
     if !cx.drive() {
         if driven {

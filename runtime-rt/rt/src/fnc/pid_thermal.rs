@@ -84,7 +84,8 @@ pub fn pid_thermal(cx: &mut Cx) -> Done {
     if !(0..=99).contains(&filter) {
         return Err(Fault(6732));
     }
-    let elapsed = load(cx, memory::ELAPSED) + cx.plc.sys().dt_ms as f32;
+    let dt = cx.elapsed_ms() as f32;
+    let elapsed = load(cx, memory::ELAPSED) + dt;
     if elapsed < f32::from(ts) {
         store(cx, memory::ELAPSED, elapsed);
         return Ok(());

@@ -36,7 +36,7 @@ pub trait Maker: Sized {
 
 /// Appends points to a table, one each millisecond. Memory: the state, the points so far.
 pub fn make<M: Maker>(cx: &mut Cx) -> Done {
-    let dt = cx.dt_ms();
+    let dt = cx.elapsed_ms();
     let state = cx.state().0[0];
     if !cx.drive() {
         if state == i32::from(IDLE) {
