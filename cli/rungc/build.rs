@@ -12,12 +12,13 @@ use std::{env, fs, io};
 const BOOKS: [&str; 2] = ["../../docs/src", "published"];
 
 /// Pages, or folders of pages, that are not for `rungc book`.
-const LEFT_OUT: [&str; 6] = [
+const LEFT_OUT: [&str; 7] = [
     "architecture",
     "benchmarks",
     "checks/",
     "commands",
     "design/",
+    "functions/",
     "instructions/",
 ];
 

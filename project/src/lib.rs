@@ -73,6 +73,8 @@ pub struct Project {
     pub modules: Vec<module::Row>,
     /// `[[property]]`: what the program must never do.
     pub properties: Vec<property::Row>,
+    /// `[[property]]` with `use` or `matrix`: several properties by one row.
+    pub uses: Vec<property::Use>,
     /// `[verify]`: what is supposed of the machine around it.
     pub verify: property::Verify,
     /// `[latched]`: devices that keep their value over power-off, in place of those of the model for each class that is
@@ -293,6 +295,11 @@ impl Project {
     /// The program that the project is about, as seen from the caller's folder.
     pub fn program(&self) -> Option<PathBuf> {
         self.program.as_deref().map(|program| self.at(program))
+    }
+
+    /// Returns true if the file has a `[[property]]`.
+    pub fn has_properties(&self) -> bool {
+        !(self.properties.is_empty() && self.uses.is_empty())
     }
 
     /// Returns true if this file is the program of the project.

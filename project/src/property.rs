@@ -32,13 +32,49 @@ pub enum PropertyKind {
         /// Time limit; none: in the same scan.
         within: Option<Named>,
     },
-    /// `stays = "…"`, and perhaps `until = "…"`.
+    /// `stays = "…"`, and perhaps `after = "…"` and `until = "…"`.
     Stays {
+        /// Condition from which on the other must hold; none: it must keep holding once it holds.
+        after: Option<Named>,
         /// Condition that must keep holding.
         holds: Named,
         /// Condition that ends it.
         until: Option<Named>,
     },
+}
+
+/// Several properties by one row.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Use {
+    /// Name, if it has one.
+    pub name: Option<String>,
+    /// Source of the properties.
+    pub source: UseSource,
+    /// Position in the file.
+    pub span: Span,
+}
+
+/// Source of several properties.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum UseSource {
+    /// `use = "two-hand"`: a safety function with its parameters.
+    Function {
+        /// Name of the function, as written.
+        function: Named,
+        /// All other keys of the row.
+        parameters: Vec<Parameter>,
+    },
+    /// `matrix = "cause-effect.csv"`: path of a cause-and-effect matrix.
+    Matrix(Named),
+}
+
+/// A parameter of a safety function, as written.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Parameter {
+    /// Its key.
+    pub key: Named,
+    /// Its value, or those of a list.
+    pub values: Vec<Named>,
 }
 
 impl PropertyKind {
@@ -49,7 +85,11 @@ impl PropertyKind {
             | PropertyKind::Always(only)
             | PropertyKind::Reachable(only) => vec![only],
             PropertyKind::Whenever { when, then, .. } => vec![when, then],
-            PropertyKind::Stays { holds, until } => [Some(holds), until.as_ref()]
+            PropertyKind::Stays {
+                after,
+                holds,
+                until,
+            } => [after.as_ref(), Some(holds), until.as_ref()]
                 .into_iter()
                 .flatten()
                 .collect(),

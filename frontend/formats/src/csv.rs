@@ -18,7 +18,7 @@ use rungc_syntax::{
 use smol_str::SmolStr;
 
 pub(crate) use comments::{comments, is_comments, is_cross_reference, not_comments};
-pub(crate) use layout::{HEADERS, detect};
+pub(crate) use layout::{HEADERS, detect, table};
 
 /// Label of the row above the list that names the CPU.
 pub(crate) const INFORMATION: &str = "PLC Information:";

@@ -18,6 +18,7 @@ mod plcopen;
 pub mod print;
 mod recognise;
 mod search;
+mod table;
 mod text;
 
 use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes, inputs};
@@ -35,6 +36,7 @@ pub use learned::{LearnError, LearnedCodes, Reading, Unproven};
 pub use plcopen::{MOST_CONTACTS, Names, PLCOPEN_CPU, iec_timer_unit, read as read_plcopen};
 pub use recognise::{Recognised, is_meant_as_toml, is_program, recognise};
 pub use search::{is_project, programs};
+pub use table::{MAX_TABLE, TableError, TableRow, read_table};
 
 /// A program and what its reader found.
 #[derive(Clone, Debug, Default)]

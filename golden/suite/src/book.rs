@@ -1,8 +1,9 @@
 //! The generated pages of the book in `docs/src`: one for each diagnostic code, one for each family of instructions,
-//! one for the special devices of each model, one each for the addresses of Modbus slaves, the buffer memory of modules
+//! one for each safety function, one for the special devices of each model, one each for the addresses of Modbus slaves, the buffer memory of modules
 //! and the variants of models, and the lines of `SUMMARY.md` that list them.
 
 use rungc_catalogue::{Family, Inst, explain, families, special_table};
+use rungc_functions::library;
 use rungc_models::{Model, ModelId, plc_errors};
 use rungc_syntax::Severity;
 use rungc_syntax::codes::{self, Code};
@@ -24,9 +25,10 @@ pub struct Page {
 }
 
 /// All generated pages, chapter by chapter; the first page of a chapter is its index.
-pub fn chapters() -> [Vec<Page>; 6] {
+pub fn chapters() -> [Vec<Page>; 7] {
     [
         checks(),
+        functions(),
         instructions(),
         special_devices(),
         modbus_addresses(),
@@ -85,9 +87,14 @@ pub fn summary(written: &str) -> String {
 /// Returns true if a line of `SUMMARY.md` lists a page below a generated chapter.
 fn is_stale(line: &str) -> bool {
     line.starts_with("  - [")
-        && ["(checks/", "(instructions/", "(special-devices/"]
-            .iter()
-            .any(|folder| line.contains(folder))
+        && [
+            "(checks/",
+            "(functions/",
+            "(instructions/",
+            "(special-devices/",
+        ]
+        .iter()
+        .any(|folder| line.contains(folder))
 }
 
 /// Text without characters that Markdown would read as markup.
@@ -128,6 +135,26 @@ fn checks() -> Vec<Page> {
         path: format!("checks/{}.md", code.id),
         title: format!("{} {}", code.id, code.name),
         text: code_page(code),
+    });
+    std::iter::once(first).chain(pages).collect()
+}
+
+fn functions() -> Vec<Page> {
+    let mut index = "# List of safety functions\n\nEach becomes a row of `rungc.toml`, as [Safety functions](../safety.md) explains. `rungc explain two-hand` shows a page in the \
+                     terminal.\n\n| name | |\n|---|---|\n".to_owned();
+    for function in library::all() {
+        let (name, title) = (function.name, function.title);
+        let _ = writeln!(index, "| [`{name}`]({name}.md) | {title} |");
+    }
+    let first = Page {
+        path: "functions/index.md".to_owned(),
+        title: "List of safety functions".to_owned(),
+        text: index,
+    };
+    let pages = library::all().map(|function| Page {
+        path: format!("functions/{}.md", function.name),
+        title: function.title.to_owned(),
+        text: rungc_functions::page::markdown(function),
     });
     std::iter::once(first).chain(pages).collect()
 }

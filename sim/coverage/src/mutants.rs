@@ -15,6 +15,7 @@ use rungc_ir::layout::Wanted;
 use rungc_ladder::build;
 use rungc_lower::compile::CompileOptions;
 use rungc_lower::{LowerOptions, lower};
+use rungc_models::Model;
 use rungc_rt::special::M_RUNNING;
 use rungc_sim::engines::Interpreter;
 use rungc_sim::plctest::{Case, Suite, run_steps};
@@ -88,6 +89,13 @@ impl Mutant {
         }
     }
 
+    /// The program with the change.
+    pub fn applied(&self, program: &Program) -> Program {
+        let mut changed = program.clone();
+        changed.instrs[self.range()].clone_from_slice(&self.changed);
+        changed
+    }
+
     fn range(&self) -> Range<usize> {
         self.instr..self.instr + self.changed.len()
     }
@@ -107,10 +115,14 @@ impl Mutant {
     }
 }
 
-/// All mutants of a program, in its order.
+/// All mutants of a program that cases test, in its order.
 pub fn mutants(covered: &Covered) -> Vec<Mutant> {
-    let program = &covered.program;
-    let (resolved, _) = resolve(program, covered.model);
+    of_program(&covered.program, covered.model)
+}
+
+/// All mutants of a program for a PLC, in its order.
+pub fn of_program(program: &Program, model: &'static Model) -> Vec<Mutant> {
+    let (resolved, _) = resolve(program, model);
     let mut found = Vec::new();
     for network in build::ladder(&resolved).networks {
         let range = network.instrs.start + network.labels..network.instrs.end;

@@ -268,12 +268,19 @@ pub fn event(property: &Property, encoder: &mut Encoder) -> Lit {
             let (when, then) = (of(when), of(then));
             late(encoder, when, then, *within_ms)
         }
-        Property::Stays { holds, until } => {
+        Property::Stays {
+            after,
+            holds,
+            until,
+        } => {
+            let begins = after.as_ref().map(&mut of);
             let (holds, until) = (of(holds), of(until));
+            let begins = begins.unwrap_or(holds);
             let (memory, before) = encoder.monitor(1, 0);
-            let kept = encoder.aig.and(holds, !until);
-            encoder.remember(memory, vec![kept]);
-            encoder.aig.all([before[0], !holds, !until])
+            let either = encoder.aig.or(before[0], begins);
+            let must_hold = encoder.aig.and(either, !until);
+            encoder.remember(memory, vec![must_hold]);
+            encoder.aig.and(must_hold, !holds)
         }
     };
     let running = encoder.running();

@@ -40,7 +40,7 @@ pub fn run(args: &CheckArgs, cx: Context) -> Result {
 /// Settings whose properties apply to no program, because they name none.
 fn unapplied_properties(subject: &Subject) -> Option<PathBuf> {
     let project = subject.project.as_deref()?;
-    let idle = project.program.is_none() && !project.properties.is_empty();
+    let idle = project.program.is_none() && project.has_properties();
     idle.then(|| subject::near(project.path.clone()))
 }
 

@@ -38,8 +38,17 @@ pub fn page(args: &ExplainArgs) -> Option<String> {
         .or_else(|| special_page(&topic, args.model?))
         .or_else(|| Variant::find(&topic).map(variant_page))
         .or_else(|| ModelId::from_name(&topic).map(model_page))
+        .or_else(|| function_page(&args.topic.trim().to_lowercase()))
         .or_else(instruction)
         .or_else(|| rungc_catalogue::explain(&topic))
+}
+
+/// The page of a safety function, or the list of all.
+fn function_page(topic: &str) -> Option<String> {
+    match topic {
+        "functions" => Some(rungc_functions::page::list()),
+        topic => rungc_functions::find(topic).map(rungc_functions::page::text),
+    }
 }
 
 fn code_page(code: &Code, plc: Option<Plc>) -> String {

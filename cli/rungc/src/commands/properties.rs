@@ -9,6 +9,7 @@ use crate::report::{Findings, Reporter};
 use rungc_analysis::resolve::resolve;
 use rungc_analysis::xref::{CrossReference, Reach, Use, UseKind};
 use rungc_frontend::Read;
+use rungc_functions::Expanded;
 use rungc_ir::Module;
 use rungc_ir::passes::simplify;
 use rungc_lower::compile::{CompileOptions, compile};
@@ -130,8 +131,12 @@ impl Reader<'_> {
             }
         }
         if let (true, Some(project)) = (requested.is_empty(), self.project()) {
-            let rows = project.properties.iter();
+            let rows = rungc_functions::properties(project).map_err(|mistakes| {
+                let error = project.invalid(mistakes);
+                subject::refuse(error, &self.subject.reporting, self.cx)
+            })?;
             requested = rows
+                .iter()
                 .map(|row| self.row(project, row))
                 .collect::<Result<_>>()?;
         }
@@ -152,11 +157,16 @@ impl Reader<'_> {
         let Some(project) = self.project() else {
             return found;
         };
-        let (rows, verify) = (&project.properties, &project.verify);
-        for row in rows {
-            if let Err((named, why)) = self.property(&row.kind) {
-                found.push(named.error(why));
+        let verify = &project.verify;
+        match rungc_functions::properties(project) {
+            Ok(rows) => {
+                let mistakes = rows.iter().filter_map(|row| self.expanded(row).err());
+                let mut seen = Vec::new();
+                for mistake in mistakes.filter(|(named, why)| is_new(&mut seen, named, why)) {
+                    found.push(mistake.0.error(mistake.1));
+                }
             }
+            Err(mistakes) => found.extend(mistakes.sorted()),
         }
         for named in &verify.assume {
             if let Err(why) = self.assumption(&named.text) {
@@ -262,10 +272,28 @@ impl Reader<'_> {
         })
     }
 
-    fn row(&self, project: &Project, row: &Row) -> Result<RequestedProperty> {
+    /// A property of the settings; else what is wrong, and with which part.
+    fn expanded<'k>(
+        &self,
+        expanded: &'k Expanded,
+    ) -> std::result::Result<Property, (&'k Named, String)> {
+        for part in &expanded.parts {
+            if let Err(error) = self.parse(&part.named.text) {
+                return Err((&part.named, format!("{}{}", part.place, error.why)));
+            }
+        }
+        let Row { kind, name, .. } = &expanded.row;
+        self.property(kind).map_err(|(named, why)| match name {
+            Some(name) if !expanded.parts.is_empty() => (named, format!("{name}: {why}")),
+            _ => (named, why),
+        })
+    }
+
+    fn row(&self, project: &Project, expanded: &Expanded) -> Result<RequestedProperty> {
         let property = self
-            .property(&row.kind)
+            .expanded(expanded)
             .map_err(|(named, why)| self.refused(project, named, why))?;
+        let row = &expanded.row;
         let soon = |within: &Option<Named>| match within {
             Some(within) => format!(" within {}", within.text),
             None => String::new(),
@@ -277,11 +305,18 @@ impl Reader<'_> {
             PropertyKind::Whenever { when, then, within } => {
                 format!("whenever {} then {}{}", when.text, then.text, soon(within))
             }
-            PropertyKind::Stays { holds, until: None } => format!("stays {}", holds.text),
             PropertyKind::Stays {
+                after,
                 holds,
-                until: Some(until),
-            } => format!("stays {} until {}", holds.text, until.text),
+                until,
+            } => {
+                let part = |word, part: &Option<Named>| match part {
+                    Some(part) => format!(" {word} {}", part.text),
+                    None => String::new(),
+                };
+                let (after, until) = (part("after", after), part("until", until));
+                format!("stays {}{after}{until}", holds.text)
+            }
         };
         let text = match &row.name {
             Some(name) => format!("{name}: {text}"),
@@ -290,7 +325,7 @@ impl Reader<'_> {
         Ok(RequestedProperty { text, property })
     }
 
-    /// A property of the settings; else what is wrong, and with which part.
+    /// A property by its kind; else what is wrong, and with which part.
     fn property<'k>(
         &self,
         kind: &'k PropertyKind,
@@ -314,7 +349,12 @@ impl Reader<'_> {
                     None => 0,
                 },
             },
-            PropertyKind::Stays { holds, until } => Property::Stays {
+            PropertyKind::Stays {
+                after,
+                holds,
+                until,
+            } => Property::Stays {
+                after: after.as_ref().map(condition).transpose()?,
                 holds: condition(holds)?,
                 until: match until {
                     Some(until) => condition(until)?,
@@ -339,8 +379,16 @@ impl Reader<'_> {
             Property::Always(a) if never(&Condition::Not(Box::new(a.clone()))) => {
                 reason(0, "always holds")
             }
-            Property::Whenever { when: a, .. } | Property::Stays { holds: a, .. } if never(a) => {
-                reason(0, "can never hold")
+            Property::Whenever { when: a, .. }
+            | Property::Stays { after: Some(a), .. }
+            | Property::Stays {
+                after: None,
+                holds: a,
+                ..
+            } if never(a) => reason(0, "can never hold"),
+            Property::Stays { after: None, .. } => None,
+            Property::Stays { holds, .. } if never(&Condition::Not(Box::new(holds.clone()))) => {
+                reason(1, "always holds")
             }
             Property::Whenever { then: b, .. } if never(&Condition::Not(Box::new(b.clone()))) => {
                 reason(1, "always holds")
@@ -361,6 +409,14 @@ impl Reader<'_> {
         let module = compile(&empty, &options).module;
         module.is_none_or(|module| is_possible(condition, &module))
     }
+}
+
+/// Notes a mistake. Returns false for one that has been noted at the same place: properties of one row share parts.
+fn is_new(seen: &mut Vec<(Span, String)>, named: &Named, why: &str) -> bool {
+    let mistake = (named.span, why.to_string());
+    let is_new = !seen.contains(&mistake);
+    seen.extend(is_new.then_some(mistake));
+    is_new
 }
 
 /// A mistake in a condition of the command line, with its place.

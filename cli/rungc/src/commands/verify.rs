@@ -31,7 +31,7 @@ const TIMEOUT_MS: u64 = 60_000;
 /// Message for a program without a property; those of a project without a program are about none.
 fn no_property(subject: &Subject) -> String {
     let project = subject.project.as_deref();
-    match project.filter(|project| !project.properties.is_empty()) {
+    match project.filter(|project| project.has_properties()) {
         Some(project) => format!(
             "no property given: those of {} are about the program that its `[project]` names with `program = \"…\"`; \
              name this one there, or add --never, --always or --reachable",

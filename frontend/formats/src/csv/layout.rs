@@ -235,7 +235,7 @@ pub(super) fn plain(name: &str) -> String {
     letters.flat_map(char::to_lowercase).collect()
 }
 
-pub(super) fn table(text: &str, delimiter: u8) -> csv::Reader<&[u8]> {
+pub(crate) fn table(text: &str, delimiter: u8) -> csv::Reader<&[u8]> {
     ReaderBuilder::new()
         .delimiter(delimiter)
         .has_headers(false)

@@ -105,6 +105,7 @@ impl RawRules {
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawStays {
+    pub(super) after: Option<Spanned<String>>,
     pub(super) holds: Spanned<String>,
     pub(super) until: Option<Spanned<String>>,
 }

@@ -164,17 +164,27 @@ impl Reader<'_> {
     /// One condition that holds until another does.
     pub(super) fn staying(&mut self, raw: Spanned<RawStays>) -> Option<Stated> {
         let at = raw.span().start;
-        let RawStays { holds, until } = raw.into_inner();
+        let RawStays {
+            after,
+            holds,
+            until,
+        } = raw.into_inner();
+        let begins = match &after {
+            Some(after) => Some(self.condition(after.get_ref(), after.span().start)?),
+            None => None,
+        };
         let ends = match &until {
             Some(until) => self.condition(until.get_ref(), until.span().start)?,
             None => Condition::Constant(false),
         };
+        let after = after.map_or(String::new(), |after| format!(" after {}", after.get_ref()));
         let until = until.map_or(String::new(), |until| format!(" until {}", until.get_ref()));
         Some(Stated {
             line: self.line(at),
             kind: RuleKind::Stays,
-            text: format!("stays {}{until}", holds.get_ref()),
+            text: format!("stays {}{after}{until}", holds.get_ref()),
             property: Property::Stays {
+                after: begins,
                 holds: self.condition(holds.get_ref(), holds.span().start)?,
                 until: ends,
             },

@@ -226,8 +226,11 @@ pub enum Property {
         /// Time limit in milliseconds.
         within_ms: u32,
     },
-    /// Once the condition holds, it holds after every later scan, until one after which the other holds.
+    /// Once `after` holds, the condition holds after that scan and every later one, until one after which the other
+    /// holds. Without `after`, it must keep holding once it holds itself.
     Stays {
+        /// Condition from which on it must hold.
+        after: Option<Condition>,
         /// Condition that must keep holding.
         holds: Condition,
         /// Condition that ends it.
@@ -411,7 +414,11 @@ impl Property {
         match self {
             Property::Never(a) | Property::Always(a) | Property::Reachable(a) => vec![a],
             Property::Whenever { when, then, .. } => vec![when, then],
-            Property::Stays { holds, until } => vec![holds, until],
+            Property::Stays {
+                after,
+                holds,
+                until,
+            } => after.iter().chain([holds, until]).collect(),
         }
     }
 

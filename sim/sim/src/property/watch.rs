@@ -76,7 +76,7 @@ pub struct Watcher<'p> {
     property: &'p Property,
     memory: Memory,
     deadline: Deadline,
-    /// True if the condition of `stays` holds and has not ended.
+    /// True if the condition of `stays` must hold and has not ended.
     stays: bool,
 }
 
@@ -106,9 +106,16 @@ impl<'p> Watcher<'p> {
                 let state = (pass.holds(when), pass.holds(then));
                 self.deadline.is_missed(state, *within_ms, elapsed_ms)
             }
-            Property::Stays { holds, until } => {
+            Property::Stays {
+                after,
+                holds,
+                until,
+            } => {
+                let begins = after.as_ref().map(|after| pass.holds(after));
                 let (holds, until) = (pass.holds(holds), pass.holds(until));
-                std::mem::replace(&mut self.stays, holds && !until) && !holds && !until
+                let must_hold = (self.stays || begins.unwrap_or(holds)) && !until;
+                self.stays = must_hold;
+                must_hold && !holds
             }
         }
     }

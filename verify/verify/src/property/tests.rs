@@ -389,10 +389,10 @@ pub(crate) fn any(depth: u32, random: &mut Random) -> Written {
     }
 }
 
-/// Returns true if the last scan shows that a property is violated. States of two conditions after the scans so far,
+/// Returns true if the last scan shows that a property is violated. States of three conditions after the scans so far,
 /// with the time of each scan.
-fn is_violated(property: &Property, history: &[(u32, bool, bool)]) -> bool {
-    let &(now, a, b) = history.last().unwrap();
+fn is_violated(property: &Property, history: &[(u32, bool, bool, bool)]) -> bool {
+    let &(now, a, b, c) = history.last().unwrap();
     match *property {
         Property::Never(_) | Property::Reachable(_) => a,
         Property::Always(_) => !a,
@@ -401,21 +401,34 @@ fn is_violated(property: &Property, history: &[(u32, bool, bool)]) -> bool {
             (0..history.len()).filter(|&n| begins(n)).any(|n| {
                 let limit = history[n].0 + within_ms;
                 let mut until = history[n..].iter().take_while(|(at, ..)| *at <= limit);
-                now >= limit && !until.any(|(.., then)| *then)
+                now >= limit && !until.any(|(_, _, then, _)| *then)
             })
         }
-        Property::Stays { .. } => {
+        Property::Stays { after: None, .. } => {
             let before = history.len().checked_sub(2).map(|n| history[n]);
-            before.is_some_and(|(_, held, ended)| held && !ended) && !a && !b
+            before.is_some_and(|(_, held, ended, _)| held && !ended) && !a && !b
+        }
+        Property::Stays { .. } => {
+            let mut since_end = history.iter().rev().take_while(|(.., ended)| !ended);
+            !b && !c && since_end.any(|(_, begins, ..)| *begins)
         }
     }
 }
 
-fn property(form: u64, a: Condition, b: Condition, random: &mut Random) -> Property {
+fn property(form: u64, [a, b, c]: [Condition; 3], random: &mut Random) -> Property {
     match form {
         0 => Property::Never(a),
         1 => Property::Always(a),
-        2 => Property::Stays { holds: a, until: b },
+        2 => Property::Stays {
+            after: None,
+            holds: a,
+            until: b,
+        },
+        3 => Property::Stays {
+            after: Some(a),
+            holds: b,
+            until: c,
+        },
         _ => Property::Whenever {
             when: a,
             then: b,
@@ -426,8 +439,9 @@ fn property(form: u64, a: Condition, b: Condition, random: &mut Random) -> Prope
 
 /// The model, the run on values, and the words of the book agree after each scan, up to the first violation.
 fn agree(module: &Module, random: &mut Random) -> usize {
-    let (a, b) = (any(2, random), any(2, random));
-    let read = |text: &str| {
+    let written = [any(2, random), any(2, random), any(1, random)];
+    let read = |of: &Written| {
+        let text = &of.text;
         let condition = parse(text, &|_| Vec::new());
         let condition = condition.unwrap_or_else(|mistake| panic!("{text}: {mistake:?}"));
         let shown = condition.to_string();
@@ -435,8 +449,8 @@ fn agree(module: &Module, random: &mut Random) -> usize {
         assert_eq!(again.as_ref(), Ok(&condition), "{text}\n{shown}");
         condition
     };
-    let form = random.below(6);
-    let property = property(form, read(&a.text), read(&b.text), random);
+    let form = random.below(7);
+    let property = property(form, written.each_ref().map(read), random);
     let conditions = property.conditions().into_iter();
     let world = World {
         observed: conditions.flat_map(Condition::devices).collect(),
@@ -466,13 +480,14 @@ fn agree(module: &Module, random: &mut Random) -> usize {
             let elapsed = run.scan(scan).unwrap();
             now += elapsed;
             seen.push(Seen::of(&run.machine, now));
-            history.push((now, (a.holds)(&seen, n), (b.holds)(&seen, n)));
+            let [a, b, c] = written.each_ref().map(|of| (of.holds)(&seen, n));
+            history.push((now, a, b, c));
             let on_bits = violated[n] >> lane & 1 == 1;
             let on_values = watcher.happened(&run.machine, elapsed);
             let by_words = is_violated(&property, &history);
             let context = format!(
-                "{property:?}\n{}\n{}\nscan {n}: {history:?}",
-                a.text, b.text
+                "{property:?}\n{:?}\nscan {n}: {history:?}",
+                written.each_ref().map(|of| &of.text)
             );
             assert_eq!((on_bits, on_values), (by_words, by_words), "{context}");
             if by_words {

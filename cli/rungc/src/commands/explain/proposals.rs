@@ -1,6 +1,7 @@
 //! Proposals for topics that `rungc explain` does not know.
 
 use super::super::book;
+use rungc_functions::library;
 use rungc_models::plc_errors;
 use rungc_models::runs::is_special;
 use rungc_models::{Model, ModelId, Plc, VARIANTS};
@@ -30,7 +31,7 @@ pub(super) fn unknown(topic: &str, plc: Option<Plc>) -> String {
     }
     let hint = near_name(topic, &upper).map(|near| format!("; did you mean `{near}`?"));
     format!(
-        "`{topic}` is not a diagnostic code, PLC error code, instruction, special device, model or page of the book{}",
+        "`{topic}` is not a diagnostic code, PLC error code, instruction, special device, model, safety function or page of the book{}",
         hint.unwrap_or_default()
     )
 }
@@ -95,8 +96,16 @@ fn near_name(topic: &str, upper: &str) -> Option<String> {
     let variants = VARIANTS.iter().map(|variant| variant.name);
     let models = ModelId::ALL.map(|id| Model::get(id).name);
     let pages = book::PAGES.iter().map(|page| page.name);
+    let functions = library::all().map(|function| function.name);
     let in_upper = diag::did_you_mean(upper, in_upper.iter().map(String::as_str));
-    let in_lower = diag::did_you_mean(&lower, titles.chain(variants).chain(models).chain(pages));
+    let in_lower = diag::did_you_mean(
+        &lower,
+        titles
+            .chain(variants)
+            .chain(models)
+            .chain(pages)
+            .chain(functions),
+    );
     let far = |near: &str| diag::distance(&lower, &near.to_lowercase(), upper.len());
     let found = in_upper.into_iter().chain(in_lower);
     found.min_by_key(|near| far(near)).map(str::to_owned)

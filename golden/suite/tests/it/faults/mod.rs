@@ -62,6 +62,7 @@ impl Fault {
             })
             .or_else(|| {
                 Some(Property::Stays {
+                    after: None,
                     holds: read(&self.stays)?,
                     until: read(&self.until).unwrap_or(off),
                 })
