@@ -88,26 +88,95 @@ fn last(encoder: &mut Encoder, now: Lit) -> Lit {
 
 /// Bit that is on if another has been on for this time.
 fn lasts(encoder: &mut Encoder, holds: Lit, ms: u32) -> Lit {
-    let (clock, passed, limit) = clock(encoder, ms);
+    if ms == 0 {
+        return holds;
+    }
     let held = last(encoder, holds);
-    let aig = &mut encoder.aig;
-    let zero = constant(0, limit.len());
-    let lasted = aig.select(held, &passed, &zero);
-    let is_short = aig.below(&lasted, &limit);
-    // The clock stands where it is enough anyway.
-    let next = aig.select(is_short, &lasted, &limit);
-    encoder.remember(clock, next);
-    encoder.aig.and(holds, !is_short)
+    let clock = Clock::new(encoder, ms, held);
+    clock.store(encoder, holds)
 }
 
-/// A clock that can count to a limit: its memory, its value after the scan if it runs, and the limit.
-fn clock(encoder: &mut Encoder, limit_ms: u32) -> (usize, Bits, Bits) {
-    let elapsed = encoder.elapsed();
-    let limit = (u32::BITS - limit_ms.leading_zeros()) as usize;
-    let width = elapsed.len().max(limit) + 1;
-    let (clock, before) = encoder.monitor(width, 0);
-    let passed = encoder.aig.add(&before, &unsigned(&elapsed, width));
-    (clock, passed, constant(limit_ms.into(), width))
+/// A clock that counts to a limit as timers do: in the longest unit of theirs that the limit is a whole number of, and
+/// milliseconds beyond. Where a timer of the program runs at the same times, both have the same bits.
+struct Clock {
+    /// Its memory: units, milliseconds beyond, and whether it has reached the limit.
+    memory: [usize; 3],
+    /// Values after the scan.
+    units: Bits,
+    part: Bits,
+    /// Values before the scan.
+    before: [Bits; 3],
+    /// Limit in units.
+    limit: Bits,
+}
+
+impl Clock {
+    /// A clock that runs if it ran before.
+    fn new(encoder: &mut Encoder, limit_ms: u32, ran: Lit) -> Self {
+        let unit: u16 = match limit_ms {
+            ms if ms.is_multiple_of(100) => 100,
+            ms if ms.is_multiple_of(10) => 10,
+            _ => 1,
+        };
+        let limit = limit_ms / u32::from(unit);
+        let mut step = encoder.elapsed_in(unit);
+        for bit in step.units.iter_mut().chain(&mut step.rest) {
+            *bit = encoder.aig.and(*bit, ran);
+        }
+        let bits = (u32::BITS - limit.leading_zeros()) as usize;
+        let width = step.units.len().max(bits) + 2;
+        let (units_memory, units_before) = encoder.monitor(bits, 0);
+        let (part_memory, part_before) = encoder.monitor(step.rest.len(), 0);
+        let (done_memory, done_before) = encoder.monitor(1, 0);
+        let aig = &mut encoder.aig;
+        let part_width = step.rest.len() + 1;
+        let sum = aig.add(
+            &unsigned(&part_before, part_width),
+            &unsigned(&step.rest, part_width),
+        );
+        let whole = constant(unit.into(), part_width);
+        let carry = match step.rest.is_empty() {
+            true => Lit::FALSE,
+            false => !aig.below(&sum, &whole),
+        };
+        let less = aig.sub(&sum, &whole);
+        let part = aig.select(carry, &less, &sum)[..step.rest.len()].to_vec();
+        let units = aig.add(
+            &unsigned(&units_before, width),
+            &unsigned(&step.units, width),
+        );
+        let units = aig.add(&units, &unsigned(&[carry], width));
+        Clock {
+            memory: [units_memory, part_memory, done_memory],
+            units,
+            part,
+            before: [units_before, part_before, done_before],
+            limit: constant(limit.into(), width),
+        }
+    }
+
+    /// Stores its values, or 0 if it does not run on. Returns true if it has reached its limit.
+    fn store(self, encoder: &mut Encoder, runs: Lit) -> Lit {
+        let aig = &mut encoder.aig;
+        let [units_before, part_before, done_before] = self.before;
+        let bits = units_before.len();
+        // It stands where it is enough, as a timer does.
+        let is_open = aig.below(&unsigned(&units_before, self.limit.len()), &self.limit);
+        let most = aig.least(&self.units, &self.limit);
+        let units = aig.select(is_open, &most[..bits], &units_before);
+        let units = aig.select(done_before[0], &units_before, &units);
+        let part = aig.select(done_before[0], &part_before, &self.part);
+        let is_short = aig.below(&unsigned(&units, self.limit.len()), &self.limit);
+        let done = aig.or(done_before[0], !is_short);
+        let mut stored =
+            |bits: &[Lit]| -> Bits { bits.iter().map(|&bit| aig.and(bit, runs)).collect() };
+        let next = [stored(&units), stored(&part), stored(&[done])];
+        let done = next[2][0];
+        for (memory, next) in self.memory.into_iter().zip(next) {
+            encoder.remember(memory, next);
+        }
+        done
+    }
 }
 
 fn comparison(encoder: &mut Encoder, op: CmpOp, a: &Number, b: &Number) -> Lit {
@@ -295,22 +364,21 @@ fn late(encoder: &mut Encoder, when: Lit, then: Lit, within_ms: u32) -> Lit {
         return encoder.aig.and(begins, !then);
     }
     let (waits, waiting) = encoder.monitor(1, 0);
-    let (clock, passed, most) = clock(encoder, within_ms);
+    let clock = Clock::new(encoder, within_ms, waiting[0]);
     let aig = &mut encoder.aig;
     let begins = aig.and(begins, !waiting[0]);
-    let is_over = aig.below(&most, &passed);
-    let is_before = aig.below(&passed, &most);
+    let is_beyond = aig.nonzero(&clock.part);
+    let is_above = aig.below(&clock.limit, &clock.units);
+    let is_before = aig.below(&clock.units, &clock.limit);
+    let is_reached = aig.and(!is_before, is_beyond);
+    let is_over = aig.or(is_above, is_reached);
     let is_missed = aig.and(!is_before, !then);
     let is_late = aig.or(is_over, is_missed);
     let late = aig.and(waiting[0], is_late);
     let still = aig.or(waiting[0], begins);
     let still = aig.and(still, !then);
-    // The clock stands where it is too late anyway.
-    let held = aig.select(is_over, &most, &passed);
-    let zero = constant(0, most.len());
-    let next = aig.select(waiting[0], &held, &zero);
     encoder.remember(waits, vec![still]);
-    encoder.remember(clock, next);
+    clock.store(encoder, still);
     late
 }
 

@@ -235,12 +235,12 @@ LD X001
 AND X002
 OUT T1 K20   ; time since both
 LDI T0
+ANI M1
 AND X000     ; the field is free
 OR M0
 AND X001
 AND X002
 ANI T1
-ANI M1
 OUT M0       ; muted
 OUT Y001     ; lamp
 LD M0

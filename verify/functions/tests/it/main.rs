@@ -3,6 +3,7 @@
 mod functions;
 mod library;
 mod matrix;
+mod proofs;
 
 use rungc_functions::{Expanded, properties};
 use rungc_project::Project;

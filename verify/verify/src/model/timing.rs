@@ -14,21 +14,23 @@ use std::collections::BTreeSet;
 const UNITS: usize = 17;
 
 /// Advance of a timer: whole units, and milliseconds beyond them.
-struct Step {
-    units: Bits,
-    rest: Bits,
+pub struct Step {
+    /// Whole units.
+    pub units: Bits,
+    /// Milliseconds beyond them.
+    pub rest: Bits,
 }
 
 impl Encoder<'_> {
-    /// The time since the scan before in a timer's units.
-    fn step_of(&self, kind: TimerKind) -> Step {
+    /// The time since the scan before, in units of 1 ms, 10 ms or 100 ms as timers have them.
+    pub fn elapsed_in(&self, unit_ms: u16) -> Step {
         let Some(time) = &self.time else {
             return Step {
                 units: constant(0, 16),
                 rest: Bits::new(),
             };
         };
-        match kind.unit_ms {
+        match unit_ms {
             ..=1 => Step {
                 units: time.all.clone(),
                 rest: Bits::new(),
@@ -185,7 +187,7 @@ impl Encoder<'_> {
 
     /// By how many units a timer moves on, and the milliseconds since the last whole one then.
     fn advanced(&mut self, number: u32, kind: TimerKind, moves: Lit) -> (Bits, Bits) {
-        let mut step = self.step_of(kind);
+        let mut step = self.elapsed_in(kind.unit_ms);
         if kind.stepwise {
             let whole = self.aig.nonzero(&step.units);
             step.units = vec![whole];
