@@ -178,6 +178,38 @@ fn of_arg(model: &Model, arg: &Arg, wide: bool, found: &mut impl FnMut(Footprint
     }
 }
 
+/// Reports the devices that an action writes: as [`of_action`], without operands that the runtime is known only to
+/// read.
+pub fn written_by(model: &Model, action: &Action, found: &mut impl FnMut(Footprint)) {
+    let mut found = |used: Footprint| {
+        if used.writes {
+            found(used);
+        }
+    };
+    let written = match action {
+        // Refreshing outputs changes nothing but terminals.
+        Action::Call(call) if shows_outputs(call) => Some((call, &[][..])),
+        Action::Call(call) => call
+            .function
+            .written_operands()
+            .map(|written| (call, written)),
+        _ => None,
+    };
+    match written {
+        Some((call, written)) => {
+            let args = written.iter().filter_map(|&operand| call.args.get(operand));
+            args.for_each(|arg| of_arg(model, arg, call.wide, &mut found));
+        }
+        None => of_action(model, action, &mut found),
+    }
+}
+
+fn shows_outputs(call: &Call) -> bool {
+    let is_output =
+        |arg: &Arg| matches!(arg, Arg::Device { place, .. } if place.class == DeviceClass::Y);
+    matches!(call.function, RtFn::Ref | RtFn::RefHm) && call.args.first().is_some_and(is_output)
+}
+
 /// Last output of any model (Y377).
 const LAST_OUTPUT: u32 = 0o377;
 
@@ -187,7 +219,8 @@ pub fn beyond_operands(call: &Call) -> Vec<(DeviceClass, u32, u32)> {
     use DeviceClass::{S, Y};
     let mut runs = Vec::new();
     let needs = call.function.needs();
-    if needs.pulses || needs.signals || needs.clears {
+    // Clear signals, and the directions of axes.
+    if needs.clears || needs.axis {
         runs.push((Y, 0, LAST_OUTPUT));
     }
     if call.function == RtFn::Anr {

@@ -27,6 +27,8 @@ pub struct Needs {
     pub clears: bool,
     /// It waits for the interrupt input of its output.
     pub interrupt: bool,
+    /// It works on an axis of HM, whose registers name its outputs.
+    pub axis: bool,
     /// It looks at inputs X, and is also called at their edges ([`crate::Site::signal`]): at those of the inputs that
     /// it names or that belong to its output ([`crate::Wiring::inputs`]).
     pub signals: bool,
@@ -108,6 +110,7 @@ macro_rules! registry {
                         unit: false,
                         clears: false,
                         interrupt: false,
+                        axis: false,
                         signals: false,
                         port: false,
                         names_port: false,
@@ -331,19 +334,19 @@ registry! {
     Dszr = position::dszr(s1, s2, d1, d2) [state, always, pulses, ramps, home, clears, signals];
     Dvit = position::dvit(s1, s2, d1, d2) [state, always, pulses, ramps, interrupt, signals];
     StopPulses = pulses::stop_pulses(d) [pulses];
-    AxisPlsy = axes::axis_plsy(d1, d2, axis) [state, always, pulses, signals];
-    AxisPlsr = axes::axis_plsr(d1, d2, d3, axis) [state, always, pulses, signals];
-    AxisDrvi = axes::axis_drvi(d1, d2, axis) [state, always, pulses, signals];
-    AxisDrva = axes::axis_drva(d1, d2, axis) [state, always, pulses, signals];
-    AxisDvit = axes::axis_dvit(d1, d2, axis) [state, always, pulses, signals];
-    AxisPlsv = axes::axis_plsv(d1, axis) [state, always, pulses, signals];
-    AxisPsout = axes::axis_psout(axis, d2) [state, always, pulses, signals];
-    AxisGear = axis_follow::axis_gear(axis, d2, d3, d4, d5) [state, always, pulses];
-    AxisPtout = axis_follow::axis_ptout(axis, d2, d3, d4, d5) [state, always, pulses];
-    AxisCam = axis_cam::axis_cam(axis, d2, d3, d4, d5) [state, always, pulses, anywhere];
-    AxisIpl = axis_follow::axis_ipl(axis, d2) [state, always, pulses];
-    AxisJog = axis_jog::axis_jog(axis, d2, d3, d4, d5) [state, always, pulses, signals];
-    AxisHome = axis_home::axis_home(axis) [state, always, pulses, signals];
+    AxisPlsy = axes::axis_plsy(d1, d2, axis) [state, always, pulses, axis, signals];
+    AxisPlsr = axes::axis_plsr(d1, d2, d3, axis) [state, always, pulses, axis, signals];
+    AxisDrvi = axes::axis_drvi(d1, d2, axis) [state, always, pulses, axis, signals];
+    AxisDrva = axes::axis_drva(d1, d2, axis) [state, always, pulses, axis, signals];
+    AxisDvit = axes::axis_dvit(d1, d2, axis) [state, always, pulses, axis, signals];
+    AxisPlsv = axes::axis_plsv(d1, axis) [state, always, pulses, axis, signals];
+    AxisPsout = axes::axis_psout(axis, d2) [state, always, pulses, axis, signals];
+    AxisGear = axis_follow::axis_gear(axis, d2, d3, d4, d5) [state, always, pulses, axis];
+    AxisPtout = axis_follow::axis_ptout(axis, d2, d3, d4, d5) [state, always, pulses, axis];
+    AxisCam = axis_cam::axis_cam(axis, d2, d3, d4, d5) [state, always, pulses, axis, anywhere];
+    AxisIpl = axis_follow::axis_ipl(axis, d2) [state, always, pulses, axis];
+    AxisJog = axis_jog::axis_jog(axis, d2, d3, d4, d5) [state, always, pulses, axis, signals];
+    AxisHome = axis_home::axis_home(axis) [state, always, pulses, axis, signals];
     Abs = servo::abs(s, d1, d2) [state, always];
     Zrn = position::zrn(s1, s2, s3, d) [state, always, pulses, ramps, clears, signals];
     Plsv = position::plsv(s, d1, d2) [state, always, pulses, ramps];

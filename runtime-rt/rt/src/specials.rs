@@ -36,6 +36,42 @@ impl RtFn {
         })
     }
 
+    /// The operands that it writes, by number, if it is known to write no others; `None`: perhaps any of them. Terminals
+    /// at which pulses are sent are not written, nor are those that REF shows.
+    pub fn written_operands(self) -> Option<&'static [usize]> {
+        match self {
+            RtFn::Plsy | RtFn::Plsr | RtFn::Pwm | RtFn::StopPulses | RtFn::Zrn => Some(&[]),
+            RtFn::Plsv => Some(&[2]),
+            RtFn::Drvi | RtFn::Drva | RtFn::Dvit | RtFn::Dszr => Some(&[3]),
+            RtFn::To | RtFn::ToStated | RtFn::ToHost | RtFn::ToRemote | RtFn::Wbfm => Some(&[]),
+            RtFn::From | RtFn::FromStated | RtFn::FromHost | RtFn::FromRemote | RtFn::Rbfm => {
+                Some(&[2])
+            }
+            RtFn::Segd | RtFn::Segl | RtFn::Pr | RtFn::PrSignalsOff => Some(&[1]),
+            RtFn::Mtr | RtFn::Dsw | RtFn::Tky => Some(&[1, 2]),
+            RtFn::Hky => Some(&[1, 2, 3]),
+            RtFn::Pid | RtFn::PidTuning | RtFn::PidChecked | RtFn::PidHm => Some(&[2, 3]),
+            RtFn::Smov => Some(&[3]),
+            RtFn::BmovForward | RtFn::Fmov | RtFn::Bcd | RtFn::Bin | RtFn::Sum | RtFn::Mean => {
+                Some(&[1])
+            }
+            RtFn::BcdClamped
+            | RtFn::BinUnchecked
+            | RtFn::Deco
+            | RtFn::Enco
+            | RtFn::EncoZero
+            | RtFn::Bon => Some(&[1]),
+            RtFn::Absd | RtFn::Ramp | RtFn::Ser | RtFn::Tadd | RtFn::Tsub => Some(&[2]),
+            RtFn::Twr | RtFn::TwrShort => Some(&[]),
+            RtFn::Flt | RtFn::Int | RtFn::Sqr | RtFn::SqrClamped => Some(&[1]),
+            RtFn::Eadd | RtFn::Esub | RtFn::Emul | RtFn::Ediv => Some(&[2]),
+            RtFn::Sftr | RtFn::Sftl | RtFn::Wsfr | RtFn::Wsfl | RtFn::Sfwr | RtFn::SfwrHm => {
+                Some(&[1])
+            }
+            _ => None,
+        }
+    }
+
     /// The relays that choose what it does.
     fn modes(self) -> &'static [Relay] {
         match self {

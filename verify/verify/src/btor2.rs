@@ -20,7 +20,7 @@ pub fn text(system: &System, gaps: &[Gap], asked: &str) -> String {
         .iter()
         .filter_map(|(_, input)| match input {
             Input::Gap(n) => Some(*n),
-            Input::Device(..) | Input::Time(..) | Input::ScanTime(_) => None,
+            Input::Device(..) | Input::Time(..) | Input::ScanTime(_) | Input::Restart => None,
         })
         .collect();
     for (n, gap) in gaps.iter().enumerate().filter(|(n, _)| used.contains(n)) {
@@ -139,6 +139,7 @@ fn of_input(input: Input) -> String {
             format!("elapsed.{digit}[{bit}]")
         }
         Input::ScanTime(bit) => format!("scan_time[{bit}]"),
+        Input::Restart => "restart".to_string(),
         Input::Gap(n) => format!("gap{n}"),
     }
 }
@@ -228,6 +229,7 @@ mod tests {
         };
         let gaps = [Gap {
             step: Some(4),
+            is_instruction: false,
             what: "PID".to_string(),
         }];
         insta::assert_snapshot!(text(&system, &gaps, "never\nM10"));

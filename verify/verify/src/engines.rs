@@ -50,6 +50,11 @@ pub fn compare(
     }
     let mut now_ms = 0u32;
     for (n, scan) in trace.scans.iter().enumerate() {
+        if scan.restart {
+            engine.execute(Request::Run(false))?;
+            engine.execute(Request::Scan { now_ms, scan_us: 0 })?;
+            engine.execute(Request::Run(true))?;
+        }
         for (&key, &value) in &scan.set {
             set(engine, key, value)?;
         }

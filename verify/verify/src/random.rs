@@ -93,7 +93,7 @@ impl<'s> Lanes<'s> {
                 }
                 Input::Device(..) => {}
                 Input::Time(digit, bit) => *held = part_of(ms, digit, bit),
-                Input::ScanTime(_) => *held = 0,
+                Input::ScanTime(_) | Input::Restart => *held = 0,
                 Input::Gap(_) => *held = random.bits(),
             }
         }
@@ -110,7 +110,7 @@ impl<'s> Lanes<'s> {
             match *input {
                 Input::Device(..) => *held ^= seldom.changes(random),
                 Input::Time(digit, bit) => *held = part_of(ms, digit, bit),
-                Input::ScanTime(_) => *held = 0,
+                Input::ScanTime(_) | Input::Restart => *held = 0,
                 Input::Gap(_) => *held = random.bits() & habits.gaps,
             }
         }
@@ -221,6 +221,7 @@ impl<'s> Lanes<'s> {
             let mut scan = Scan {
                 ms: *ms,
                 scan_time: 0,
+                restart: false,
                 set: set.into_iter().collect(),
             };
             scan.set.iter_mut().for_each(with_sign);

@@ -80,6 +80,21 @@ impl<'m> Run<'m> {
 
     /// Executes a scan; the milliseconds since the one before, unless the program stops.
     pub fn scan(&mut self, scan: &Scan) -> Option<u32> {
+        self.begin(scan);
+        self.execute(scan)
+    }
+
+    /// STOP for a moment, and RUN, if the scan begins so.
+    fn begin(&mut self, scan: &Scan) {
+        if scan.restart {
+            self.machine.set_running(false);
+            self.machine.scan(&mut self.hal, self.now_ms, 0);
+            self.machine.set_running(true);
+            self.first = true;
+        }
+    }
+
+    fn execute(&mut self, scan: &Scan) -> Option<u32> {
         for (&key, &value) in &scan.set {
             set(&mut self.machine, &mut self.hal, key, value);
         }
@@ -102,6 +117,9 @@ pub fn replay(
     let mut run = Run::new(module, trace);
     let (mut watcher, mut monitor) = (Watcher::new(property), Monitor::new(assumed));
     for (n, scan) in trace.scans.iter().enumerate() {
+        if scan.restart {
+            (watcher, monitor) = (Watcher::new(property), Monitor::new(assumed));
+        }
         let elapsed = run.scan(scan)?;
         if !monitor.all_hold(&run.machine, elapsed) {
             return None;
@@ -124,6 +142,7 @@ pub(crate) fn stretched(trace: &Trace, most_ms: u32) -> Trace {
         {
             let meanwhile = Scan {
                 ms: most_ms,
+                restart: false,
                 ..last.clone()
             };
             scan.ms -= most_ms;
@@ -206,6 +225,7 @@ pub fn plain(happens: &dyn Fn(&Trace) -> Option<usize>, mut trace: Trace) -> Tra
     };
     for scan in 0..steps {
         attempt(&mut trace, &|trace| trace.scans[scan].scan_time = 0);
+        attempt(&mut trace, &|trace| trace.scans[scan].restart = false);
         attempt(&mut trace, &|trace| {
             if scan > 0 {
                 trace.scans[scan].ms = USUAL_MS;
@@ -246,6 +266,8 @@ pub struct Change {
     pub scans: usize,
     /// Start of the first, in milliseconds since power-on.
     pub at_ms: u64,
+    /// The PLC was in STOP before the first.
+    pub restart: bool,
     /// Milliseconds from each of them to the next scan.
     pub scan_ms: u32,
     /// Settings before the first of them.
@@ -258,12 +280,8 @@ pub struct Change {
 
 /// A run in words: equal scans together, with what the property looks at in the end.
 pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change> {
-    let mut machine = Machine::new(module);
-    let mut hal = VirtualHal::new();
+    let mut run = Run::new(module, trace);
     let named = |(&key, &value): (&Key, &i64)| Some((name(key)?, device_of(key)?, value.into()));
-    for (&key, &value) in &trace.start {
-        set(&mut machine, &mut hal, key, value);
-    }
     let start = trace.start.iter().filter(|(_, value)| **value != 0);
     let start: Vec<Setting> = start.filter_map(named).collect();
     let mut changes: Vec<Change> = Vec::new();
@@ -272,26 +290,29 @@ pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change>
     for (n, scan) in trace.scans.iter().enumerate() {
         now_ms += u64::from(scan.ms);
         let mut set_now = BTreeMap::new();
+        run.begin(scan);
         for (&key, &value) in &scan.set {
             // What the program has overwritten is set again. A module is there as soon as its memory is set, if only
             // to 0.
-            let before = get(&machine, key).or_else(|| known.get(&key).copied());
+            let before = get(&run.machine, key).or_else(|| known.get(&key).copied());
             known.insert(key, value);
-            set(&mut machine, &mut hal, key, value);
             if before != Some(value) {
                 set_now.insert(key, value);
             }
         }
-        machine.scan(&mut hal, now_ms as u32, scan.scan_time * 100);
+        run.execute(scan);
         const USUAL_MS: u32 = 10;
         let scan_ms = trace.scans.get(n + 1).map_or(USUAL_MS, |next| next.ms);
         match changes.last_mut() {
-            Some(last) if set_now.is_empty() && last.scan_ms == scan_ms => last.scans += 1,
+            Some(last) if set_now.is_empty() && last.scan_ms == scan_ms && !scan.restart => {
+                last.scans += 1;
+            }
             _ => changes.push(Change {
                 start: Vec::new(),
                 first: n,
                 scans: 1,
                 at_ms: now_ms,
+                restart: scan.restart,
                 scan_ms,
                 set: set_now.iter().filter_map(named).collect(),
                 buffers: set_now.iter().filter_map(in_buffer).collect(),
@@ -303,7 +324,7 @@ pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change>
         first.start = start;
     }
     if let Some(last) = changes.last_mut() {
-        last.after = property.values(&machine);
+        last.after = property.values(&run.machine);
     }
     changes
 }

@@ -24,6 +24,8 @@ pub struct Scan {
     pub ms: u32,
     /// Duration of the scan before, in units of 0.1 ms.
     pub scan_time: u32,
+    /// The PLC was in STOP before it.
+    pub restart: bool,
     /// Devices that something other than the program sets.
     pub set: BTreeMap<Key, i64>,
 }
@@ -115,6 +117,7 @@ impl<'s> Bounded<'s> {
                         happens.ms += (u32::from(on) << bit) * digit.milliseconds();
                     }
                     Input::ScanTime(bit) => happens.scan_time |= u32::from(on) << bit,
+                    Input::Restart => happens.restart = on,
                     Input::Gap(_) => {}
                 }
             }

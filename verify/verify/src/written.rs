@@ -79,7 +79,13 @@ pub fn case(name: &str, module: &Module, property: &Property, trace: &Trace) -> 
 
 /// A step of a case, without what comes after it.
 pub fn step(text: &mut String, change: &Change) {
+    if change.restart {
+        let _ = writeln!(text, "[[case.step]]\nmode = \"stop\"");
+    }
     let _ = writeln!(text, "[[case.step]]");
+    if change.restart {
+        let _ = writeln!(text, "mode = \"run\"");
+    }
     if !change.set.is_empty() {
         let _ = writeln!(text, "set = {}", settings(&change.set));
     }

@@ -221,6 +221,7 @@ impl Searched<'_> {
                 first,
                 scans: step.scans as usize,
                 at_ms,
+                restart: false,
                 scan_ms: step.scan_ms,
                 set: set.collect(),
                 buffers: Vec::new(),

@@ -103,12 +103,20 @@ struct Run<'m> {
 }
 
 impl Run<'_> {
+    /// STOP for two scans, and RUN.
+    fn stop_and_run(&mut self, now_ms: u32) {
+        self.machine.set_running(false);
+        for _ in 0..2 {
+            self.machine.scan(&mut VirtualHal::new(), now_ms, 0);
+        }
+        self.machine.set_running(true);
+    }
+
     /// One scan on both; what the logic says cannot be.
     fn scan(
         &mut self,
-        now_ms: u32,
-        elapsed: u32,
-        scan_ms: u32,
+        (now_ms, elapsed, scan_ms): (u32, u32, u32),
+        restart: bool,
         exact: &mut Exactness,
     ) -> Result<bool, String> {
         let machine = &mut self.machine;
@@ -124,6 +132,7 @@ impl Run<'_> {
                 bit,
             )),
             Input::ScanTime(bit) => Some(bit_of(i64::from(scan_ms) * 10, bit)),
+            Input::Restart => Some(restart),
             Input::Gap(_) => None,
         };
         let start = |latch: &rungc_verify::system::Latch| {
@@ -192,10 +201,17 @@ fn follow(module: &Module, seed: u64, scans: u64, exact: &mut Exactness) -> Resu
     };
     let mut rng = Rng::new(seed ^ 0x7E57);
     let (mut now_ms, mut elapsed) = (0, 0);
+    let mut inputs = system.inputs.iter();
+    let restarts = inputs.any(|(_, input)| *input == Input::Restart);
     for scan in 0..scans {
+        // Programs that cannot tell RUN after STOP from power-on have a run for each.
+        let restart = scan > 0 && restarts && rng.percent(15);
+        if restart {
+            run.stop_and_run(now_ms);
+        }
         disturb(&mut run.machine, run.module, &mut rng, scan == 0);
         let scan_ms = 1 + rng.below(40);
-        if !run.scan(now_ms, elapsed, scan_ms, exact)? {
+        if !run.scan((now_ms, elapsed, scan_ms), restart, exact)? {
             break;
         }
         if module.takes_events() {
@@ -266,9 +282,9 @@ fn the_logic_allows_what_the_interpreter_does() {
 
 /// Devices that an instruction may write though no operand names them: outputs, first states and those of a sequence,
 /// annunciators.
-const BESIDE: [&str; 14] = [
-    "Y000", "Y001", "Y002", "Y005", "M0", "M1", "S0", "S1", "S2", "S5", "S21", "S22", "S900",
-    "S901",
+const BESIDE: [&str; 16] = [
+    "Y000", "Y001", "Y002", "Y005", "M8033", "M8140", "M0", "M1", "S0", "S1", "S2", "S5", "S21",
+    "S22", "S900", "S901",
 ];
 
 #[test]

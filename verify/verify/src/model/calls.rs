@@ -5,17 +5,18 @@ use super::{Encoder, Input, Key};
 use crate::aig::Lit;
 use crate::bits::{Bits, known, signed};
 use rungc_ir::node::{Action, Arg, Call, Fetch};
-use rungc_ir::reach::{beyond_operands, of_action};
+use rungc_ir::reach::{beyond_operands, of_action, written_by};
 use rungc_rt::special::D_ANALOG_INPUTS;
 use rungc_rt::{Register, RtFn, Transfer};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 
 /// Special devices that an instruction of the runtime may write: all but those that the scan alone maintains, M8000 to
-/// M8003 and M8011 to M8014.
-const SPECIAL: [(DeviceClass, u32, u32); 3] = [
+/// M8003 and M8011 to M8014, and M8033 and M8034, which no instruction does.
+const SPECIAL: [(DeviceClass, u32, u32); 4] = [
     (DeviceClass::M, 8004, 8010),
-    (DeviceClass::M, 8015, u32::MAX),
+    (DeviceClass::M, 8015, 8032),
+    (DeviceClass::M, 8035, u32::MAX),
     (DeviceClass::D, 8000, u32::MAX),
 ];
 
@@ -46,6 +47,22 @@ fn own_specials(function: RtFn) -> Option<Vec<(DeviceClass, u32, u32)>> {
     let relays = relays.map(|of| (DeviceClass::M, of.number(), of.number()));
     let registers = specials.registers.iter().map(|&of| register(of));
     Some(relays.chain(registers).chain(ERRORS).collect())
+}
+
+/// Description of what a PLC does by itself before or after the program.
+fn own_work(function: RtFn) -> String {
+    let what = match function {
+        RtFn::ClockRefresh | RtFn::ClockRefreshShort => "registers of the clock",
+        RtFn::RunTime => "counters of the running time",
+        RtFn::PowerSupply => "relays and registers of the power supply",
+        RtFn::AnalogInputs | RtFn::Potentiometers => "analog inputs",
+        RtFn::ExchangeModule | RtFn::ExchangeBoard | RtFn::ExchangeAdapter => {
+            "words that special modules exchange"
+        }
+        RtFn::RingCounter => "the ring counter D8099",
+        other => other.name(),
+    };
+    what.to_string()
 }
 
 impl Encoder<'_> {
@@ -82,11 +99,20 @@ impl Encoder<'_> {
     pub(super) fn of_operands(&self, action: &Action) -> Vec<Key> {
         let mut runs = Vec::new();
         let (model, exprs) = (self.module.model, &self.module.exprs);
+        written_by(model, action, &mut |used| {
+            let reach = used.reach(model, exprs).into_iter();
+            runs.extend(reach.map(|(first, last)| (used.place.class, first, last)));
+        });
+        self.named_in(&runs)
+    }
+
+    /// Devices that an action reads or writes through its operands.
+    pub(super) fn at_operands(&self, action: &Action) -> Vec<Key> {
+        let mut runs = Vec::new();
+        let (model, exprs) = (self.module.model, &self.module.exprs);
         of_action(model, action, &mut |used| {
-            if used.writes {
-                let reach = used.reach(model, exprs).into_iter();
-                runs.extend(reach.map(|(first, last)| (used.place.class, first, last)));
-            }
+            let reach = used.reach(model, exprs).into_iter();
+            runs.extend(reach.map(|(first, last)| (used.place.class, first, last)));
         });
         self.named_in(&runs)
     }
@@ -94,9 +120,11 @@ impl Encoder<'_> {
     pub(super) fn call(&mut self, action: &Action, call: &Call, guard: Lit) {
         let mut keys = self.of_operands(action);
         keys.extend(self.of_call(call));
-        let name = match self.module.origin(call.step) {
-            Some(origin) => origin.text.clone(),
-            None => call.function.name().to_uppercase(),
+        self.begin_instruction(call.step);
+        let name = match (self.instruction, self.module.origin(call.step)) {
+            (Some(_), Some(origin)) => origin.text.clone(),
+            (Some(_), None) => call.function.name().to_uppercase(),
+            (None, _) => own_work(call.function),
         };
         let anywhere = call.function.needs().anywhere;
         let seen = self.seen(action, anywhere, call.step);
@@ -114,6 +142,12 @@ impl Encoder<'_> {
             }
         }
         self.leave_tokens(Some(call), &seen, guard);
+        self.instruction = None;
+    }
+
+    /// An instruction of the program, or of what the PLC does before and after it.
+    fn begin_instruction(&mut self, step: u32) {
+        self.instruction = self.network.is_some().then_some(step);
     }
 
     /// Values that FROM moves from a module to registers, or one word of it to a group of bits, in the usual case: its
@@ -198,6 +232,7 @@ impl Encoder<'_> {
     }
 
     pub(super) fn fetch(&mut self, fetch: &Fetch, guard: Lit) {
+        self.begin_instruction(fetch.step);
         let seen = self.seen(&Action::Fetch(*fetch), false, fetch.step);
         let answer = |this: &mut Self, what: &str| {
             let signature = Signature::Answer(format!("{} {what}", seen.text));
@@ -220,6 +255,7 @@ impl Encoder<'_> {
         self.store(cell, &value, reads);
         self.assign(fetch.there, vec![!fails], guard);
         self.leave_tokens(None, &seen, guard);
+        self.instruction = None;
     }
 
     /// Value of a module that a fetch reads, if it is known; in each scan it may be any value.
@@ -247,14 +283,17 @@ impl Encoder<'_> {
     pub(super) fn send(&mut self, action: &Action, step: u32, guard: Lit) {
         let mut keys = self.of_operands(action);
         keys.extend(self.specials());
+        self.begin_instruction(step);
         let seen = self.seen(action, false, step);
         self.apply(&keys, guard, BUFFER, &seen);
         self.leave_tokens(None, &seen, guard);
+        self.instruction = None;
     }
 
     /// An operation error found inline.
     pub(super) fn fault(&mut self, action: &Action, step: u32, guard: Lit) {
         let keys = self.named_in(&ERRORS);
+        self.begin_instruction(step);
         let seen = self.seen(action, false, step);
         self.apply(
             &keys,
@@ -262,5 +301,6 @@ impl Encoder<'_> {
             "relays and registers of operation errors",
             &seen,
         );
+        self.instruction = None;
     }
 }

@@ -297,12 +297,16 @@ impl Encoder<'_> {
             return self.read_at(kind, place.class, place.number);
         };
         let index = self.eval(index);
-        let width = width(Access { place, kind }.ty());
-        let Some(candidates) = self.candidates(place, &index) else {
-            return self.fresh(width, "operands whose index can lead to many devices");
+        let access = Access { place, kind };
+        let width = width(access.ty());
+        let Some(candidates) = self.candidates(place, &index, access.extent()) else {
+            return self.fresh_by_index(width);
         };
-        let mut value = constant(0, width);
-        for (here, number) in candidates {
+        let mut value = match candidates.are_all {
+            true => constant(0, width),
+            false => self.unnamed(width),
+        };
+        for (here, number) in candidates.numbers {
             let read = self.read_at(kind, place.class, number);
             value = self.aig.select(here, &read, &value);
         }

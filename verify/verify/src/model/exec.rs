@@ -1,6 +1,5 @@
 //! Statements as logic.
 
-use super::memory::REACH;
 use super::{Encoder, Key, NODES, STATEMENTS};
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, known, signed};
@@ -311,9 +310,9 @@ impl Encoder<'_> {
             return self.write_at(kind, (place.class, place.number), &value, guard);
         };
         let index = self.eval(index);
-        match self.candidates(place, &index) {
+        match self.candidates(place, &index, Access { place, kind }.extent()) {
             Some(candidates) => {
-                for (here, number) in candidates {
+                for (here, number) in candidates.numbers {
                     let here = self.aig.and(guard, here);
                     self.write_at(kind, (place.class, number), &value, here);
                 }
@@ -324,12 +323,12 @@ impl Encoder<'_> {
 
     /// A write that an index may lead to many devices.
     fn write_anywhere(&mut self, action: &Action, guard: Lit) {
-        let keys = self.of_operands(action);
-        self.free(
-            &keys,
-            guard,
-            "operands whose index can lead to many devices",
-        );
+        for key in self.of_operands(action) {
+            if let Some(width) = self.state.get(&key).map(Vec::len) {
+                let value = self.fresh_by_index(width);
+                self.store(key, &value, guard);
+            }
+        }
     }
 
     fn write_at(
@@ -388,10 +387,6 @@ impl Encoder<'_> {
 
     fn block(&mut self, block: &Block, guard: Lit) {
         let (to, count) = block.written();
-        if count > REACH {
-            let keys = self.of_operands(&Action::Block(*block));
-            return self.free(&keys, guard, "blocks of very many devices");
-        }
         let bits = matches!(
             to.class,
             DeviceClass::X | DeviceClass::Y | DeviceClass::M | DeviceClass::S
@@ -401,13 +396,16 @@ impl Encoder<'_> {
         } else {
             AccessKind::Word
         };
+        let last = to.number.saturating_add(count.max(1) - 1);
+        let numbers = self.relevant(to.class, (to.number, last), 1);
         let values: Vec<Bits> = match *block {
-            Block::Copy { from, .. } => (from.number..from.number + count)
-                .map(|number| self.read_at(kind, from.class, number))
+            Block::Copy { from, .. } => numbers
+                .iter()
+                .map(|number| self.read_at(kind, from.class, from.number + (number - to.number)))
                 .collect(),
-            Block::Fill { value, .. } => vec![self.eval(value); count as usize],
+            Block::Fill { value, .. } => vec![self.eval(value); numbers.len()],
         };
-        for (number, value) in (to.number..).zip(&values) {
+        for (number, value) in numbers.into_iter().zip(&values) {
             self.write_at(kind, (to.class, number), value, guard);
         }
     }
@@ -419,10 +417,10 @@ impl Encoder<'_> {
             return;
         };
         let index = self.eval(index);
-        let Some(candidates) = self.candidates(coil.place, &index) else {
+        let Some(candidates) = self.candidates(coil.place, &index, 1) else {
             return self.write_anywhere(&Action::TimerAt(*coil), guard);
         };
-        for (here, number) in candidates {
+        for (here, number) in candidates.numbers {
             let here = self.aig.and(guard, here);
             if coil.place.class == DeviceClass::C {
                 if !is_counter32(DeviceClass::C, number) {
@@ -450,10 +448,10 @@ impl Encoder<'_> {
             return;
         };
         let index = self.eval(index);
-        let Some(candidates) = self.candidates(place, &index) else {
+        let Some(candidates) = self.candidates(place, &index, 1) else {
             return self.write_anywhere(&Action::Reset { place, holds }, guard);
         };
-        for (here, number) in candidates {
+        for (here, number) in candidates.numbers {
             let here = self.aig.and(guard, here);
             let keys = self.keys(place.class, number);
             self.reset_timing(&keys, here);

@@ -13,7 +13,18 @@ use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 
 /// An operand that may reach more devices than this is not modelled.
-pub(super) const REACH: u32 = 256;
+const REACH: u32 = 256;
+
+/// Maximum number of devices that an index is followed to, if it leads to others, too.
+const MOST: usize = 64;
+
+/// Places that an index leads to.
+pub(super) struct Candidates {
+    /// The first device of each, with the condition under which the index leads there.
+    pub numbers: Vec<(Lit, u32)>,
+    /// True if there are no others: else it also leads to devices that the program does not name.
+    pub are_all: bool,
+}
 
 /// The parts of a timer.
 const TIMER: [TimerPart; 6] = [
@@ -235,8 +246,17 @@ impl Encoder<'_> {
         }
         match self.state.get(&key) {
             Some(bits) => bits.clone(),
-            None => self.fresh(width(key, 1), "devices that only an index reaches"),
+            None => self.unnamed(width(key, 1)),
         }
+    }
+
+    /// Value of something that the program does not name, so that only an index or a block reaches it: any value. A
+    /// replay finds 0 there.
+    pub(super) fn unnamed(&mut self, width: usize) -> Bits {
+        let value = self.fresh(width, "devices that only an index or a block reaches");
+        let zero = self.aig.is(&value, 0);
+        self.replay_assumptions.push(zero);
+        value
     }
 
     /// Writes a piece of memory under a condition.
@@ -253,16 +273,6 @@ impl Encoder<'_> {
             self.state.insert(key, new);
             if !self.clears {
                 self.written.insert(key);
-            }
-        }
-    }
-
-    /// Makes pieces of memory free under a condition.
-    pub(super) fn free(&mut self, keys: &[Key], guard: Lit, what: &str) {
-        for key in keys {
-            if let Some(bits) = self.state.get(key) {
-                let fresh = self.fresh(bits.len(), what);
-                self.store(*key, &fresh, guard);
             }
         }
     }
@@ -416,7 +426,8 @@ impl Encoder<'_> {
         let first = self.state[&Key::First][0];
         // Tests of counterexamples have scans of at least a millisecond, the first one at 0.
         let some = self.aig.nonzero(&raw);
-        let positive = self.aig.mux(first, !some, some);
+        let at_power_on = self.before[&Key::First][0];
+        let positive = self.aig.mux(at_power_on, !some, some);
         self.replay_assumptions.push(positive);
         let shown = |this: &mut Self, bits: &[Lit]| -> Bits {
             bits.iter().map(|&bit| this.aig.and(bit, !first)).collect()
@@ -460,16 +471,49 @@ impl Encoder<'_> {
         self.constant_scan = Some(kept);
     }
 
-    /// Devices that an index leads to, with the condition for each; `None` if there are too many.
-    pub(super) fn candidates(&mut self, place: Place, index: &[Lit]) -> Option<Vec<(Lit, u32)>> {
+    /// Returns true if the program names a device, so that it is part of its memory.
+    fn is_named(&self, class: DeviceClass, number: u32) -> bool {
+        let (class, number) = self.module.model.canonical(class, number);
+        let key = match class {
+            DeviceClass::T => Key::Timer(number, TimerPart::Value),
+            DeviceClass::C => Key::Counter(number, CounterPart::Value),
+            DeviceClass::D | DeviceClass::R | DeviceClass::ER | DeviceClass::V | DeviceClass::Z => {
+                Key::Word(class, number)
+            }
+            _ => Key::Bit(class, number),
+        };
+        self.state.contains_key(&key)
+    }
+
+    /// The numbers of a run of which one of the next `count` devices is named; all, if there are few.
+    pub(super) fn relevant(
+        &self,
+        class: DeviceClass,
+        (first, last): (u32, u32),
+        count: u32,
+    ) -> Vec<u32> {
+        if last - first < REACH {
+            return (first..=last).collect();
+        }
+        let is_relevant =
+            |number: &u32| (*number..number.saturating_add(count)).any(|n| self.is_named(class, n));
+        (first..=last).filter(is_relevant).collect()
+    }
+
+    /// Places that an index leads to, of `count` devices each; `None` if too many of them are named.
+    pub(super) fn candidates(
+        &mut self,
+        place: Place,
+        index: &[Lit],
+        count: u32,
+    ) -> Option<Candidates> {
         if let Some(index) = crate::bits::known(index) {
             let number = u32::try_from(i64::from(place.number) + index);
-            return Some(
-                number
-                    .map(|number| (Lit::TRUE, number))
-                    .into_iter()
-                    .collect(),
-            );
+            let numbers = number.map(|number| (Lit::TRUE, number));
+            return Some(Candidates {
+                numbers: numbers.into_iter().collect(),
+                are_all: true,
+            });
         }
         let used = Footprint {
             place,
@@ -483,17 +527,21 @@ impl Encoder<'_> {
             _ => runs,
         };
         let size: u32 = runs.iter().map(|(first, last)| last - first + 1).sum();
-        if size > REACH {
+        let relevant = runs
+            .into_iter()
+            .flat_map(|run| self.relevant(place.class, run, count));
+        let numbers: Vec<u32> = relevant.collect();
+        let are_all = numbers.len() == size as usize;
+        if !are_all && numbers.len() > MOST || size > REACH && are_all {
             return None;
         }
-        let numbers: Vec<u32> = runs
-            .into_iter()
-            .flat_map(|(first, last)| first..=last)
-            .collect();
         let found = numbers.into_iter().map(|number| {
             let by = i64::from(number) - i64::from(place.number);
             (self.aig.is(index, by), number)
         });
-        Some(found.collect())
+        Some(Candidates {
+            numbers: found.collect(),
+            are_all,
+        })
     }
 }

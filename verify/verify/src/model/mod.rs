@@ -10,7 +10,10 @@ mod eval;
 mod exec;
 mod memory;
 mod probes;
+mod restart;
 mod shared;
+#[cfg(test)]
+mod tests;
 mod timing;
 
 pub use memory::device_of;
@@ -23,8 +26,9 @@ use crate::aig::{Aig, Lit};
 use crate::bits::{Bits, constant};
 use crate::system::{Latch, System};
 use rungc_ir::Module;
-use rungc_ir::node::{ExprId, FunctionKind, LabelId};
-use rungc_rt::special::D_WATCHDOG_MS;
+use rungc_ir::node::{Action, Arg, ExprId, FunctionKind, LabelId, Stmt};
+use rungc_ir::walk::statements;
+use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP};
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
 use typed_index_collections::TiVec;
@@ -101,6 +105,8 @@ pub enum Input {
     Time(Digit, usize),
     /// A bit of the time that the scan before took (D8010).
     ScanTime(usize),
+    /// It is on if the PLC went from RUN to STOP and back before the scan.
+    Restart,
     /// A bit of a value that is not modelled: a number of [`Encoder::gaps`].
     Gap(usize),
 }
@@ -119,8 +125,10 @@ pub enum Digit {
 /// Something that is not modelled exactly, so that any value is assumed to be possible.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Gap {
-    /// Step of the network in which it is, if it is in one.
+    /// Step of the instruction that causes it, or else of the network in which it is, if it is in one.
     pub step: Option<u32>,
+    /// True if that is the step of the instruction.
+    pub is_instruction: bool,
     /// Description, as the end of "not modelled: …".
     pub what: String,
 }
@@ -216,11 +224,15 @@ pub struct Encoder<'m> {
     /// Values of special modules in this scan, word by word.
     buffers: BTreeMap<Key, Bits>,
     network: Option<u32>,
+    /// Step of the instruction that is being executed, if it is known.
+    instruction: Option<u32>,
     statements: u32,
     watched: u64,
     watch_limit: u64,
     monitors: u32,
     extra_latches: Vec<(Key, Bits, Bits, Option<i64>)>,
+    /// It is on if the PLC was in STOP before the scan; `None`: that is the same as power-on.
+    restart: Option<Lit>,
     /// Parts shared with another program.
     shared: Option<Shared>,
     /// Probes for the search for events that can never happen.
@@ -228,7 +240,8 @@ pub struct Encoder<'m> {
 }
 
 impl<'m> Encoder<'m> {
-    /// Executes a scan of a module.
+    /// Executes a scan of a module, from power-on or any scan before; if the program may tell RUN after STOP from
+    /// power-on, also after that.
     pub fn scan(module: &'m Module, world: World) -> Self {
         Self::executed(module, world, None, None)
     }
@@ -245,14 +258,44 @@ impl<'m> Encoder<'m> {
 
     fn executed(
         module: &'m Module,
-        mut world: World,
-        mut shared: Option<Shared>,
+        world: World,
+        shared: Option<Shared>,
         probes: Option<Probes>,
+    ) -> Self {
+        let pass = |open: &BTreeSet<Key>, restarts: bool| {
+            let parts = (shared.clone(), probes.clone());
+            Self::pass(module, world.clone(), parts, restarts.then_some(open))
+        };
+        let mut encoder = pass(&BTreeSet::new(), false);
+        if !encoder.remembers_stop() {
+            return encoder;
+        }
+        let mut open = None;
+        loop {
+            let keys = encoder.before.keys().copied();
+            let found: BTreeSet<Key> = keys.filter(|&key| encoder.is_free(key)).collect();
+            if open.as_ref() == Some(&found) {
+                return encoder;
+            }
+            encoder = pass(&found, true);
+            open = Some(found);
+        }
+    }
+
+    /// Executes a scan; before it, the PLC may have been in STOP if `open`, the memory that something outside the
+    /// program sets, is given.
+    fn pass(
+        module: &'m Module,
+        mut world: World,
+        (mut shared, probes): (Option<Shared>, Option<Probes>),
+        open: Option<&BTreeSet<Key>>,
     ) -> Self {
         let free = world.free.into_iter();
         world.free = free
             .map(|(class, number)| module.model.canonical(class, number))
             .collect();
+        let keeps = (DeviceClass::M, M_KEEP_IN_STOP.number());
+        world.observed.extend(world.free.get(&keeps));
         let aig = shared
             .as_mut()
             .map(|shared| std::mem::take(&mut shared.aig));
@@ -285,11 +328,13 @@ impl<'m> Encoder<'m> {
             constant_scan: None,
             buffers: BTreeMap::new(),
             network: None,
+            instruction: None,
             statements: 0,
             watched: 0,
             watch_limit: 0,
             monitors: 0,
             extra_latches: Vec::new(),
+            restart: None,
             world,
             shared,
             probes,
@@ -297,12 +342,17 @@ impl<'m> Encoder<'m> {
         encoder.find_memory();
         encoder.find_external();
         encoder.find_timers();
+        if let Some(open) = open {
+            encoder.begin_restart(open);
+        }
         encoder.begin_time();
         encoder.watch_limit = encoder.watch_steps();
         // A module's first functions are `Begin`, `Main`, `End`.
         for function in 0..3 {
+            encoder.network = None;
             encoder.function(function, Lit::TRUE);
         }
+        encoder.network = None;
         encoder.state.insert(Key::First, vec![Lit::FALSE]);
         encoder.lose();
         encoder
@@ -325,18 +375,60 @@ impl<'m> Encoder<'m> {
     }
 
     fn gap(&mut self, what: &str) -> usize {
-        let networks = &self.module.networks;
-        let network = self.network.and_then(|n| networks.get(n as usize));
-        let gap = Gap {
+        if self.instruction.is_some() {
+            return self.gap_of(Gap {
+                step: self.instruction,
+                is_instruction: true,
+                what: what.to_string(),
+            });
+        }
+        let network = self
+            .network
+            .and_then(|n| self.module.networks.get(n as usize));
+        self.gap_of(Gap {
             step: network.map(|network| network.step),
+            is_instruction: false,
             what: what.to_string(),
-        };
+        })
+    }
+
+    fn gap_of(&mut self, gap: Gap) -> usize {
         let next = self.gaps.len();
         let number = *self.gap_numbers.entry(gap.clone()).or_insert(next);
         if number == next {
             self.gaps.push(gap);
         }
         number
+    }
+
+    /// A free value, because an index can lead to very many devices.
+    fn fresh_by_index(&mut self, width: usize) -> Bits {
+        const WHAT: &str = "an index that can lead to very many devices";
+        let networks = self
+            .network
+            .map_or(&[][..], |n| &self.module.networks[n as usize..]);
+        let steps = match networks {
+            [this, next, ..] => this.step..next.step,
+            [this] => this.step..u32::MAX,
+            [] => 0..0,
+        };
+        let origins = self.module.origins.iter();
+        let indexed: Vec<_> = origins
+            .filter(|origin| steps.contains(&origin.step) && !origin.indexed.is_empty())
+            .collect();
+        let gap = match indexed[..] {
+            [] => self.gap(WHAT),
+            [only] => self.gap_of(Gap {
+                step: Some(only.step),
+                is_instruction: true,
+                what: format!("{} ({WHAT})", only.text),
+            }),
+            [..] => {
+                let texts: Vec<&str> = indexed.iter().map(|origin| origin.text.as_str()).collect();
+                self.gap(&format!("{} ({WHAT})", texts.join(", ")))
+            }
+        };
+        self.fresh_of(width, gap)
     }
 
     fn fresh_of(&mut self, width: usize, gap: usize) -> Bits {
@@ -377,13 +469,18 @@ impl<'m> Encoder<'m> {
         self.state[&Key::Running][0]
     }
 
-    /// A memory for a property, that begins as this: its bits before the scan.
+    /// A memory for a property, that begins as this, also when RUN begins: its bits before the scan.
     pub fn monitor(&mut self, width: usize, init: i64) -> (usize, Bits) {
         let bits = self.aig.inputs_of(width);
         let key = Key::Monitor(self.monitors);
         self.monitors += 1;
+        let begins = constant(init, width);
         self.extra_latches
-            .push((key, bits.clone(), constant(init, width), Some(init)));
+            .push((key, bits.clone(), begins.clone(), Some(init)));
+        let bits = match self.restart {
+            Some(restart) => self.aig.select(restart, &begins, &bits),
+            None => bits,
+        };
         (self.extra_latches.len() - 1, bits)
     }
 
@@ -394,10 +491,36 @@ impl<'m> Encoder<'m> {
 
     /// Bit that is on if an output is on by a pulse. Pulses are not modelled.
     pub fn pulse(&mut self, output: u32) -> Lit {
-        match self.module.pulse_outputs.contains(&output) {
-            true => self.fresh(1, "pulses at outputs")[0],
-            false => Lit::FALSE,
+        if !self.module.pulse_outputs.contains(&output) {
+            return Lit::FALSE;
         }
+        let mut sender = None;
+        let sends = |arg: &Arg| {
+            let place = match arg {
+                Arg::Device { place, .. } => place,
+                _ => return false,
+            };
+            (place.class, place.number) == (DeviceClass::Y, output)
+        };
+        for function in &self.module.functions {
+            statements(&function.body, &mut |stmt| {
+                if let Stmt::Do(Action::Call(call)) = stmt
+                    && call.function.needs().pulses
+                    && call.args.iter().any(sends)
+                {
+                    sender.get_or_insert(call.step);
+                }
+            });
+        }
+        let origin = sender.and_then(|step| self.module.origin(step));
+        let what = match origin {
+            Some(origin) => format!("pulses of {}", origin.text),
+            None => format!("pulses at {}", DeviceClass::Y.number(output)),
+        };
+        self.instruction = origin.map(|origin| origin.step);
+        let pulse = self.fresh(1, &what)[0];
+        self.instruction = None;
+        pulse
     }
 
     /// Milliseconds since the scan before, 0 in the first.

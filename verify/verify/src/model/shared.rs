@@ -204,7 +204,7 @@ impl Encoder<'_> {
     pub(super) fn looks(&mut self, action: &Action, anywhere: bool, step: u32) -> Seen {
         let mut text = String::new();
         let mut bits = Vec::new();
-        let mut keys = self.of_operands(action);
+        let mut keys = self.at_operands(action);
         keys.extend(self.specials());
         if let Action::Call(call) = action {
             keys.extend(self.named_in(&beyond_operands(call)));

@@ -43,6 +43,7 @@ impl Searched<'_> {
                 first: 0,
                 scans: 1,
                 at_ms: 0,
+                restart: false,
                 scan_ms,
                 set: Vec::new(),
                 buffers: Vec::new(),

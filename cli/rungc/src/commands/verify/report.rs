@@ -204,7 +204,10 @@ pub fn gaps(text: &mut String, gaps: &[Gap]) {
     for gap in gaps {
         let step = gap
             .step
-            .map_or_else(String::new, |step| format!(" (network at step {step})"));
+            .map_or_else(String::new, |step| match gap.is_instruction {
+                true => format!(" (step {step})"),
+                false => format!(" (network at step {step})"),
+            });
         let what = &gap.what;
         let _ = writeln!(
             text,
@@ -220,12 +223,13 @@ pub fn assumptions(world: &World, assumed: &[String], external: &ExternalWrites)
         ms => format!("a scan begins at most {ms} ms after the one before"),
     };
     let mut lines = vec![
-        "the program runs as rungc's IR says, from power-on, as long as the PLC is in RUN"
+        "the program runs as rungc's IR says, from power-on, also after STOP; while the PLC is in STOP, nothing is asked"
             .to_string(),
         format!("{scan}; inputs change only between scans"),
         match world.fresh {
-            true => "latched devices begin with 0".to_string(),
-            false => "latched devices begin with any value, all others as at power-on".to_string(),
+            true => "latched devices begin with 0, and the PLC is not switched off and on again".to_string(),
+            false => "latched devices begin with any value, all others as at power-on, whenever the PLC is switched on"
+                .to_string(),
         },
         untouched(external),
     ];
@@ -297,6 +301,9 @@ pub fn write_story(text: &mut String, module: &Module, story: &[Change]) {
         };
         let mut set: Vec<String> = change.set.iter().map(|set| setting(module, set)).collect();
         set.extend(change.buffers.iter().map(buffer));
+        if change.restart {
+            set.insert(0, "STOP, then RUN".to_string());
+        }
         let set = match set.is_empty() {
             true => "no change".to_string(),
             false => set.join(", "),
@@ -338,7 +345,9 @@ pub fn changes(module: &Module, story: &[Change]) -> String {
     for change in story {
         let all = change.start.iter().chain(&change.set);
         let set = all.map(|set| setting(module, set));
-        let set: Vec<String> = set.chain(change.buffers.iter().map(buffer)).collect();
+        let restart = change.restart.then(|| "STOP and RUN".to_string());
+        let set = set.chain(change.buffers.iter().map(buffer));
+        let set: Vec<String> = restart.into_iter().chain(set).collect();
         if !set.is_empty() {
             parts.push(format!(
                 "from scan {} on {}",
