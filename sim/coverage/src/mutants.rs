@@ -67,6 +67,8 @@ pub enum Fate {
     Noticed,
     /// No case failed, although some executed the instruction.
     Survived,
+    /// As [`Fate::Survived`], but no run changes an output, as the caller has proved.
+    Equivalent,
     /// No case executes the instruction.
     NotExecuted,
     /// It is not a program.
@@ -89,11 +91,11 @@ impl Mutant {
         }
     }
 
-    /// The program with the change.
+    /// The changed program.
     pub fn applied(&self, program: &Program) -> Program {
-        let mut changed = program.clone();
-        changed.instrs[self.range()].clone_from_slice(&self.changed);
-        changed
+        let mut program = program.clone();
+        program.instrs[self.range()].clone_from_slice(&self.changed);
+        program
     }
 
     fn range(&self) -> Range<usize> {
@@ -299,8 +301,12 @@ pub fn text(covered: &Covered, mutants: &[Mutant], fates: &[Fate]) -> String {
     let (noticed, survived) = (count(Fate::Noticed), count(Fate::Survived));
     let not_executed = count(Fate::NotExecuted);
     let all = noticed + survived + not_executed;
+    let equivalent = match count(Fate::Equivalent) {
+        0 => String::new(),
+        count => format!("; {count} more never change an output (proved)"),
+    };
     let mut out = format!(
-        "{}: {noticed} of {all} mutants noticed, {survived} survived, {not_executed} not executed\n",
+        "{}: {noticed} of {all} mutants noticed, {survived} survived, {not_executed} not executed{equivalent}\n",
         covered.name
     );
     covered.drawn(|_, ladder| {
@@ -329,7 +335,7 @@ fn write_network(out: &mut String, covered: &Covered, number: usize, here: &[(&M
     let mut gaps: BTreeMap<usize, Vec<String>> = BTreeMap::new();
     for (mutant, fate) in here {
         let what = match fate {
-            Fate::Noticed | Fate::Invalid => continue,
+            Fate::Noticed | Fate::Invalid | Fate::Equivalent => continue,
             Fate::Survived => mutant.describe(&covered.program),
             Fate::NotExecuted => format!("{} (not executed)", mutant.describe(&covered.program)),
         };

@@ -7,10 +7,11 @@
 mod dependence;
 
 use crate::aig::Lit;
+use crate::effort::Limit;
 use crate::model::{Encoder, Key, Probes, World};
 use crate::pdr;
 use crate::prove::FOREVER_MS;
-use crate::random::{Lanes, Random};
+use crate::random::{EVALUATED, Lanes, Random};
 use crate::replay::{Run, plain};
 use crate::search::{Bounded, Induction, Step, Trace};
 use crate::system::System;
@@ -22,8 +23,6 @@ use rungc_models::runs::is_special;
 use rungc_rt::{Class, CmpOp, Plc};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
-use std::time::Duration;
-use web_time::Instant;
 
 /// Kind of finding.
 #[derive(Clone, PartialEq, Debug)]
@@ -141,8 +140,8 @@ impl Candidate {
 const RUNS: usize = 24;
 /// Scans with changing inputs, and then with the same.
 const PHASE: usize = 8;
-/// Time limit of one proof.
-const PROOF: Duration = Duration::from_millis(1500);
+/// Limit of the effort for one proof.
+const PROOF: u64 = 1500;
 /// Maximum number of scans that induction assumes.
 const INDUCTION: usize = 3;
 /// Number of successive changes that make an output one that oscillates.
@@ -159,9 +158,9 @@ pub fn world(free: BTreeSet<(DeviceClass, u32)>, unset: BTreeSet<(DeviceClass, u
     }
 }
 
-/// Looks for what can never happen in a world, within this time.
-pub fn look(module: &Module, world: World, time: Duration) -> Report {
-    let begin = Instant::now();
+/// Looks for what can never happen in a world, within this effort.
+pub fn look(module: &Module, world: World, effort: u64) -> Report {
+    let limit = Limit::new(effort, None);
     let encoder = Encoder::scan_probed(module, world);
     let system = encoder.system(Lit::FALSE);
     let mut candidates = candidates(&encoder);
@@ -171,17 +170,16 @@ pub fn look(module: &Module, world: World, time: Duration) -> Report {
         &encoder,
         &system,
         (&mut candidates, &mut report),
-        begin + time / 4,
+        &limit.share(4),
     );
     let mut proved = Vec::new();
     for candidate in candidates.iter().filter(|c| !c.happened && c.began) {
-        let now = Instant::now();
-        if now >= begin + time {
+        if limit.is_over() {
             report.open += 1;
             continue;
         }
         let about = system.about(candidate.happens);
-        match never(&about, (now + PROOF).min(begin + time)) {
+        match never(&about, &limit.part(PROOF)) {
             Answer::Proved(evidence) => {
                 let finding = Finding {
                     kind: candidate.kind.clone(),
@@ -199,7 +197,7 @@ pub fn look(module: &Module, world: World, time: Duration) -> Report {
     }
     for (finding, about) in proved {
         let named = compared(module, &finding.kind);
-        let finding = dependent(finding, &named, (&about, &encoder), begin + time);
+        let finding = dependent(finding, &named, (&about, &encoder), &limit);
         report.findings.push(finding);
     }
     report.findings.sort_by_key(|finding| finding.network);
@@ -307,7 +305,7 @@ fn simulate(
     encoder: &Encoder,
     system: &System,
     (candidates, report): (&mut [Candidate], &mut Report),
-    deadline: Instant,
+    limit: &Limit,
 ) {
     let mut random = Random::new();
     let written = encoder.probes.iter().flat_map(|probes| &probes.bits);
@@ -338,6 +336,7 @@ fn simulate(
                     _ => [1, 10, 100, 30][random.below(4) as usize],
                 };
                 let ms = if phase + scan == 0 { 0 } else { ms };
+                limit.charge(system.aig.nodes().len() / EVALUATED);
                 lanes.scan(
                     if quiet && !waits { ms.min(1) } else { ms },
                     !quiet,
@@ -373,7 +372,7 @@ fn simulate(
                 .map(|(_, output)| output)
                 .collect();
         }
-        if Instant::now() > deadline {
+        if limit.is_over() {
             break;
         }
     }
@@ -398,7 +397,7 @@ fn oscillation(module: &Module, number: u32, trace: Trace) -> Option<Trace> {
         None
     };
     happens(&trace)?;
-    Some(plain(&happens, trace))
+    Some(plain(&happens, trace, &Limit::new(PROOF, None)))
 }
 
 /// An answer to whether something never happens.
@@ -408,14 +407,14 @@ enum Answer {
     Open,
 }
 
-fn never(system: &System, deadline: Instant) -> Answer {
-    by_induction(system, deadline).unwrap_or_else(|| by_invariant(system, deadline))
+fn never(system: &System, limit: &Limit) -> Answer {
+    by_induction(system, limit).unwrap_or_else(|| by_invariant(system, limit))
 }
 
 /// The answer of a few scans, if there is one.
-fn by_induction(system: &System, deadline: Instant) -> Option<Answer> {
-    let mut bounded = Bounded::new(system, false, deadline);
-    let mut induction = Induction::new(system, deadline);
+fn by_induction(system: &System, limit: &Limit) -> Option<Answer> {
+    let mut bounded = Bounded::new(system, false, limit);
+    let mut induction = Induction::new(system, limit);
     for scans in 1..=INDUCTION {
         match bounded.step() {
             Step::Holds if induction.step() => {
@@ -429,10 +428,10 @@ fn by_induction(system: &System, deadline: Instant) -> Option<Answer> {
     None
 }
 
-fn by_invariant(system: &System, deadline: Instant) -> Answer {
-    match pdr::search(system, deadline) {
+fn by_invariant(system: &System, limit: &Limit) -> Answer {
+    match pdr::search(system, limit) {
         pdr::Found::Invariant(cubes) => {
-            let checked = pdr::check(system, &cubes, deadline + PROOF);
+            let checked = pdr::check(system, &cubes, &Limit::new(PROOF, None));
             match checked {
                 true => Answer::Proved(Evidence::Invariant(cubes.len())),
                 false => Answer::Open,

@@ -13,6 +13,7 @@ pub mod bits;
 pub mod btor2;
 pub mod certificate;
 pub mod deep;
+pub mod effort;
 pub mod engines;
 pub mod model;
 pub mod pdr;

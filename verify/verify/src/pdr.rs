@@ -7,12 +7,12 @@
 //! invariant.
 
 use crate::aig::Lit;
+use crate::effort::Limit;
 use crate::sat::{Answer, SatLit, Solver};
 use crate::system::System;
 use rustc_hash::FxHashMap;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use web_time::Instant;
 
 /// States: latches by number with their values, in order.
 pub(crate) type Cube = Vec<(usize, bool)>;
@@ -24,7 +24,7 @@ pub enum Found {
     Invariant(Vec<Cube>),
     /// A run violates the property.
     Violated,
-    /// The time is up.
+    /// The limit is reached.
     TimeUp,
 }
 
@@ -34,6 +34,7 @@ type Obligation = Reverse<(usize, usize, Cube)>;
 /// The search.
 struct Pdr<'s> {
     system: &'s System,
+    limit: Limit,
     /// One scan, with the constraints.
     solver: Solver,
     /// One scan without them, to find out on what a step depends.
@@ -51,8 +52,8 @@ struct Pdr<'s> {
 }
 
 /// Searches for an invariant.
-pub fn search(system: &System, deadline: Instant) -> Found {
-    let mut pdr = Pdr::new(system, deadline);
+pub fn search(system: &System, limit: &Limit) -> Found {
+    let mut pdr = Pdr::new(system, limit);
     loop {
         match pdr.bad_state() {
             Some(cube) => {
@@ -76,8 +77,8 @@ pub fn search(system: &System, deadline: Instant) -> Found {
 }
 
 impl<'s> Pdr<'s> {
-    fn new(system: &'s System, deadline: Instant) -> Self {
-        let (mut solver, mut lifter) = (Solver::new(deadline), Solver::new(deadline));
+    fn new(system: &'s System, limit: &Limit) -> Self {
+        let (mut solver, mut lifter) = (Solver::new(limit), Solver::new(limit));
         let lits = |solver: &mut Solver, of: &dyn Fn(&crate::system::Latch) -> Lit| {
             let latches = system.latches.iter();
             latches
@@ -105,6 +106,7 @@ impl<'s> Pdr<'s> {
         }
         Pdr {
             system,
+            limit: limit.clone(),
             solver,
             lifter,
             now,
@@ -226,7 +228,9 @@ impl<'s> Pdr<'s> {
 
     /// Returns true if a level already excludes a cube.
     fn is_blocked(&self, cube: &[(usize, bool)], level: usize) -> bool {
-        let mut known = self.cubes[level..].iter().flatten();
+        let known = self.cubes[level..].iter();
+        self.limit.charge(known.clone().map(Vec::len).sum());
+        let mut known = known.flatten();
         known.any(|known| known.iter().all(|lit| cube.binary_search(lit).is_ok()))
     }
 
@@ -344,8 +348,8 @@ impl<'s> Pdr<'s> {
 }
 
 /// Checks with a new solver that cubes are an invariant that excludes a violation.
-pub fn check(system: &System, cubes: &[Cube], deadline: Instant) -> bool {
-    let mut solver = Solver::new(deadline);
+pub fn check(system: &System, cubes: &[Cube], limit: &Limit) -> bool {
+    let mut solver = Solver::new(limit);
     let aig = &system.aig;
     for &holds in &system.constraints {
         let holds = solver.lit(aig, holds);

@@ -1,11 +1,11 @@
 //! Proofs, and what they rest on: enough to be confirmed by others ([`crate::certificate`]).
 
 use crate::aig::{Aig, Lit};
+use crate::effort::Limit;
 use crate::pdr::Cube;
 use crate::reduce::reduced;
 use crate::system::System;
 use std::fmt;
-use web_time::Instant;
 
 /// Method by which a system is proved never to violate its property.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -108,14 +108,14 @@ impl Posed {
         self
     }
 
-    /// Without the bits that others stand for, if these are found in time.
+    /// Without the bits that others stand for, if these are found within the limit.
     #[must_use]
-    pub fn simplified(self, until: Instant) -> Self {
+    pub fn simplified(self, limit: &Limit) -> Self {
         // Once is enough.
         if self.from.is_some() {
             return self;
         }
-        let Some(reduced) = reduced(&self.system, until) else {
+        let Some(reduced) = reduced(&self.system, limit) else {
             return self;
         };
         let (system, kept) = reduced.sliced();

@@ -2,6 +2,7 @@
 
 use crate::aig::{Aig, Lit};
 use crate::bits::{Bits, constant, signed, unsigned};
+use crate::effort::Limit;
 use crate::model::{Encoder, Key, World};
 use crate::sat::{Answer, Solver};
 use rungc_ir::Module;
@@ -12,8 +13,6 @@ use rungc_sim::Target;
 use rungc_sim::property::{CalcOp, Condition, Number, NumberKind, Property, access};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
-use std::time::Duration;
-use web_time::Instant;
 
 /// A condition's value after the scan.
 pub fn condition(condition: &Condition, encoder: &mut Encoder) -> Lit {
@@ -296,7 +295,7 @@ pub fn is_possible(of: &Condition, module: &Module) -> bool {
     let mut encoder = Encoder::scan(module, world);
     let holds = condition(of, &mut encoder);
     let system = encoder.system(holds);
-    let mut solver = Solver::new(Instant::now() + LIMIT);
+    let mut solver = Solver::new(&Limit::new(LIMIT, None));
     let all: Vec<_> = system.constraints.iter().chain([&system.bad]).collect();
     let all: Vec<_> = all
         .into_iter()
@@ -305,8 +304,8 @@ pub fn is_possible(of: &Condition, module: &Module) -> bool {
     solver.solve(&all) != Answer::Unsat
 }
 
-/// Time limit for the question whether a condition is possible, which has no program in it.
-const LIMIT: Duration = Duration::from_secs(5);
+/// Limit of the effort for the question whether a condition is possible, which has no program in it.
+const LIMIT: u64 = 5000;
 
 /// Relay that switches the output terminals off.
 pub(crate) const OUTPUTS_OFF: Key = Key::Bit(DeviceClass::M, M_OUTPUTS_OFF.number());

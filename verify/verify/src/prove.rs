@@ -1,6 +1,7 @@
 //! From a program and a property to a verdict.
 
-use crate::model::{Encoder, Gap, Input, Key, World};
+use crate::effort::Limit;
+use crate::model::{AFTER_STOP, Encoder, Gap, Input, Key, World};
 use crate::pdr;
 use crate::proof::{Method, Posed, Proof};
 use crate::property::{condition, event};
@@ -13,7 +14,6 @@ use rungc_sim::property::{Condition, Property};
 use std::cell::LazyCell;
 use std::collections::BTreeSet;
 use std::time::Duration;
-use web_time::Instant;
 
 /// Options of a decision.
 #[derive(Clone, Debug)]
@@ -22,8 +22,32 @@ pub struct Options {
     pub world: World,
     /// Conditions that hold after every scan.
     pub assumed: Vec<Condition>,
-    /// Time limit for each property.
-    pub time: Duration,
+    /// Limit of the effort for each property ([`crate::effort::STEPS`]): what is found within it is the same on every
+    /// machine.
+    pub effort: u64,
+    /// Time limit for each property, if there is one.
+    pub time: Option<Duration>,
+}
+
+/// Usual limit of the effort for a property: about ten seconds of an ordinary computer.
+pub const EFFORT: u64 = 10_000;
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            world: World::default(),
+            assumed: Vec::new(),
+            effort: EFFORT,
+            time: None,
+        }
+    }
+}
+
+impl Options {
+    /// Limit of a search.
+    pub(crate) fn limit(&self) -> Limit {
+        Limit::new(self.effort, self.time)
+    }
 }
 
 /// Verdict on a property.
@@ -44,6 +68,13 @@ pub enum Why {
     Time {
         /// Number of scans.
         scans: usize,
+    },
+    /// The effort was spent after this many scans without what is searched for.
+    Effort {
+        /// Number of scans.
+        scans: usize,
+        /// The effort.
+        effort: u64,
     },
     /// The model allows a run of this many scans, but the program does otherwise: something in it is not modelled.
     Spurious {
@@ -143,6 +174,9 @@ pub trait Question {
     /// Runs a trace on the interpreter; after how many of its scans what is searched for has happened.
     fn happens(&self, trace: &Trace) -> Option<usize>;
 
+    /// Steps of a scan of such a run.
+    fn scan_steps(&self) -> usize;
+
     /// Returns true if the answer may abstract from the time at which timers expire.
     fn abstracts_timers(&self) -> bool {
         true
@@ -168,11 +202,15 @@ impl Question for OfProperty<'_> {
     fn happens(&self, trace: &Trace) -> Option<usize> {
         replay::replay(self.module, self.property, &self.options.assumed, trace)
     }
+
+    fn scan_steps(&self) -> usize {
+        self.module.exprs.len()
+    }
 }
 
 /// Decides whether a program has a property.
 pub fn decide(module: &Module, property: &Property, options: &Options) -> Decision {
-    let deadline = Instant::now() + options.time;
+    let limit = options.limit();
     let (encoder, system) = system(module, property, options);
     let of_cone = |wanted: &dyn Fn(&Input) -> bool| system.inputs.iter().any(|(_, i)| wanted(i));
     let gaps = encoder
@@ -193,9 +231,15 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
     };
     let gaps = BTreeSet::from_iter(gaps).into_iter().collect();
     let latches = system.latches.len();
-    let answer = search(&question, &options.world, &system.into(), deadline);
+    let answer = search(&question, &options.world, &system.into(), &limit);
+    // A proof holds for whatever is there after STOP; it is named where it may be the reason that there is none.
+    let is_decided = !matches!(answer.verdict, Verdict::Undecided(_));
+    let gaps: Vec<Gap> = gaps;
+    let gaps = gaps
+        .into_iter()
+        .filter(|gap| !(is_decided && gap.what == AFTER_STOP));
     Decision {
-        gaps,
+        gaps: gaps.collect(),
         unwritten,
         free,
         latches,
@@ -207,16 +251,22 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
 /// A time, in milliseconds, in which every timer expires.
 pub const FOREVER_MS: u32 = 4_000_000;
 
-/// Initial time for each way, and its factor in the next round.
-const ROUND: (Duration, u32) = (Duration::from_millis(500), 4);
+/// Initial effort for each way, and its factor in the next round.
+const ROUND: (u64, u64) = (500, 4);
 
-/// Bounded search and induction side by side; then, in rounds that give each of them more time, the ways of [`Ways`];
+/// Returns after how many scans of a trace what is searched for has happened, and counts its steps.
+fn shown(question: &dyn Question, limit: &Limit, trace: &Trace) -> Option<usize> {
+    limit.charge(trace.scans.len() * question.scan_steps());
+    question.happens(trace)
+}
+
+/// Bounded search and induction side by side; then, in rounds that give each of them more effort, the ways of [`Ways`];
 /// then bounded search alone. `posed` is the question in this world.
-pub fn search(question: &dyn Question, world: &World, posed: &Posed, deadline: Instant) -> Answer {
-    let mut hunt = Hunt::new(question, world, &posed.system, deadline);
+pub fn search(question: &dyn Question, world: &World, posed: &Posed, limit: &Limit) -> Answer {
+    let mut hunt = Hunt::new(question, world, &posed.system, limit);
     // A proof must hold for what a replay cannot show, too.
-    let mut complete = Bounded::new(&posed.system, false, deadline);
-    let mut induction = Induction::new(&posed.system, deadline);
+    let mut complete = Bounded::new(&posed.system, false, limit);
+    let mut induction = Induction::new(&posed.system, limit);
     for scans in 1..=INDUCTION {
         if let Some(verdict) = hunt.step() {
             return verdict.into();
@@ -233,26 +283,20 @@ pub fn search(question: &dyn Question, world: &World, posed: &Posed, deadline: I
             Step::Violated(_) | Step::TimeUp => break,
         }
     }
-    let mut ways = Ways::new(question, world, posed, deadline);
-    let (mut time, factor) = ROUND;
-    while Instant::now() < deadline && !ways.are_exhausted(&hunt) {
-        if let Some(answer) = ways.round(time) {
+    let mut ways = Ways::new(question, world, posed, limit);
+    let (mut effort, factor) = ROUND;
+    while !limit.is_over() && !ways.are_exhausted(&hunt) {
+        if let Some(answer) = ways.round(effort) {
             return answer;
         }
-        time *= factor;
+        effort *= factor;
     }
-    while Instant::now() < deadline && hunt.spurious.is_none() {
+    while !limit.is_over() && hunt.spurious.is_none() {
         if let Some(verdict) = hunt.step() {
             return verdict.into();
         }
     }
     hunt.undecided().into()
-}
-
-/// End of this part of the remaining time: 4 is a quarter.
-fn share(deadline: Instant, parts: u32) -> Instant {
-    let now = Instant::now();
-    now + deadline.saturating_duration_since(now) / parts
 }
 
 /// A system in which an invariant is searched. It is made when it is first needed: most questions are answered before.
@@ -270,20 +314,20 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// The system, and when a search in it for this time ends. Making the system takes nothing of that time.
-    fn begin(&self, time: Duration, deadline: Instant) -> (&Posed, Instant) {
+    /// The system, and the limit of a search in it with this effort. Making the system takes nothing of that.
+    fn begin(&self, effort: u64, limit: &Limit) -> (&Posed, Limit) {
         let posed = LazyCell::force(&self.posed);
-        (posed, (Instant::now() + time).min(deadline))
+        (posed, limit.part(effort))
     }
 
     /// A proof by an invariant, which another solver confirms.
-    fn invariant(&mut self, time: Duration, deadline: Instant) -> Option<Proof> {
+    fn invariant(&mut self, effort: u64, limit: &Limit) -> Option<Proof> {
         if !self.may_hold {
             return None;
         }
-        let (posed, until) = self.begin(time, deadline);
-        match pdr::search(&posed.system, until) {
-            pdr::Found::Invariant(cubes) => pdr::check(&posed.system, &cubes, deadline)
+        let (posed, part) = self.begin(effort, limit);
+        match pdr::search(&posed.system, &part) {
+            pdr::Found::Invariant(cubes) => pdr::check(&posed.system, &cubes, limit)
                 .then(|| posed.proof(Method::Invariant(cubes))),
             pdr::Found::Violated => {
                 self.may_hold = false;
@@ -307,7 +351,7 @@ struct Ways<'a> {
     free_scan_times: Attempt<'a>,
     /// Runs that are longer than a search scan by scan can reach.
     long_runs: LongRuns<'a>,
-    deadline: Instant,
+    limit: &'a Limit,
 }
 
 impl<'a> Ways<'a> {
@@ -315,7 +359,7 @@ impl<'a> Ways<'a> {
         question: &'a dyn Question,
         world: &'a World,
         posed: &'a Posed,
-        deadline: Instant,
+        limit: &'a Limit,
     ) -> Self {
         let abstracted = || {
             question.posed(&World {
@@ -329,10 +373,7 @@ impl<'a> Ways<'a> {
                 ..world.clone()
             })
         };
-        let as_it_is = move || {
-            let until = (Instant::now() + ROUND.0).min(deadline);
-            posed.clone().simplified(until)
-        };
+        let as_it_is = move || posed.clone().simplified(&limit.part(ROUND.0));
         let abstracts = question.abstracts_timers();
         Ways {
             question,
@@ -341,7 +382,7 @@ impl<'a> Ways<'a> {
             timers_abstracted: abstracts.then(|| Attempt::new(abstracted)),
             free_scan_times: Attempt::new(free_scan_times),
             long_runs: LongRuns::new(&posed.system, world.scan_ms),
-            deadline,
+            limit,
         }
     }
 
@@ -353,45 +394,45 @@ impl<'a> Ways<'a> {
         hunt.spurious.is_some() && attempts.all(|attempt| !attempt.may_hold)
     }
 
-    /// Tries each for this time.
-    fn round(&mut self, time: Duration) -> Option<Answer> {
-        let end = self.deadline;
+    /// Tries each with this effort.
+    fn round(&mut self, effort: u64) -> Option<Answer> {
+        let limit = self.limit;
         let abstracted = self.timers_abstracted.as_mut();
-        if let Some(proof) = abstracted.and_then(|attempt| attempt.invariant(time, end)) {
+        if let Some(proof) = abstracted.and_then(|attempt| attempt.invariant(effort, limit)) {
             return Some(proof.into());
         }
-        if let Some(found) = self.with_free_scan_times(time) {
+        if let Some(found) = self.with_free_scan_times(effort) {
             return Some(found.into());
         }
-        if let Some(proof) = self.free_scan_times.invariant(time, end) {
+        if let Some(proof) = self.free_scan_times.invariant(effort, limit) {
             return Some(proof.into());
         }
         // Runs by chance continue where they were; the others begin anew.
-        let longer = (Instant::now() + 2 * time).min(end);
-        if let Some(found) = self.random_runs(longer) {
+        if let Some(found) = self.random_runs(&limit.part(2 * effort)) {
             return Some(found.into());
         }
-        self.as_it_is.invariant(time, end).map(Answer::from)
+        self.as_it_is.invariant(effort, limit).map(Answer::from)
     }
 
     /// Continues the search over long runs.
-    fn random_runs(&mut self, until: Instant) -> Option<Verdict> {
-        /// Long enough for what shortens a run.
-        const MOST: Duration = Duration::from_secs(3);
-        let happens = |trace: &Trace| self.question.happens(trace);
+    fn random_runs(&mut self, part: &Limit) -> Option<Verdict> {
+        let happens = |trace: &Trace| shown(self.question, self.limit, trace);
         let happened = &mut |trace: &Trace| happens(trace).is_some();
-        let found = self.long_runs.search(until, happened)?;
-        let soon = share(self.deadline, 4).min(Instant::now() + MOST);
-        let short = replay::shortened(&happens, found, soon);
-        Some(Verdict::Found(replay::plain(&happens, short)))
+        let found = self.long_runs.search(part, happened)?;
+        let short = replay::shortened(&happens, found, &self.limit.share(4).part(PLAIN));
+        Some(Verdict::Found(replay::plain(
+            &happens,
+            short,
+            &self.limit.part(PLAIN),
+        )))
     }
 
     /// Searches a run where a scan may come any time after the one before: it is replayed with scans in between.
-    fn with_free_scan_times(&self, time: Duration) -> Option<Verdict> {
-        let (posed, until) = self.free_scan_times.begin(time, self.deadline);
-        let mut hunt = Hunt::new(self.question, self.world, &posed.system, until);
+    fn with_free_scan_times(&self, effort: u64) -> Option<Verdict> {
+        let (posed, part) = self.free_scan_times.begin(effort, self.limit);
+        let mut hunt = Hunt::new(self.question, self.world, &posed.system, &part);
         for _ in 0..2 * INDUCTION {
-            if hunt.spurious.is_some() || Instant::now() > until {
+            if hunt.spurious.is_some() || part.is_over() {
                 break;
             }
             let found = hunt.step();
@@ -403,27 +444,27 @@ impl<'a> Ways<'a> {
     }
 }
 
+/// Limit of the effort for leaving out of a run what does not matter.
+const PLAIN: u64 = 2000;
+
 /// A search for a run that the interpreter confirms.
 struct Hunt<'a> {
     question: &'a dyn Question,
     /// The most milliseconds from one scan of the program to the next.
     scan_ms: u32,
+    limit: Limit,
     bounded: Bounded<'a>,
     /// Length of the first run that the interpreter did not confirm.
     spurious: Option<usize>,
 }
 
 impl<'a> Hunt<'a> {
-    fn new(
-        question: &'a dyn Question,
-        world: &World,
-        system: &'a System,
-        deadline: Instant,
-    ) -> Self {
+    fn new(question: &'a dyn Question, world: &World, system: &'a System, limit: &Limit) -> Self {
         Hunt {
+            limit: limit.clone(),
             question,
             scan_ms: world.scan_ms,
-            bounded: Bounded::new(system, true, deadline),
+            bounded: Bounded::new(system, true, limit),
             spurious: None,
         }
     }
@@ -436,21 +477,29 @@ impl<'a> Hunt<'a> {
         let Step::Violated(trace) = self.bounded.step() else {
             return None;
         };
-        let happens = |trace: &Trace| self.question.happens(trace);
+        let happens = |trace: &Trace| shown(self.question, &self.limit, trace);
         let trace = replay::stretched(&trace, self.scan_ms);
         if happens(&trace).is_none() {
             self.spurious = Some(self.bounded.scans());
             return None;
         }
-        Some(Verdict::Found(replay::plain(&happens, trace)))
+        let plain = replay::plain(&happens, trace, &self.limit.part(PLAIN));
+        Some(Verdict::Found(plain))
     }
 
     fn undecided(&self) -> Verdict {
         Verdict::Undecided(match self.spurious {
             Some(scans) => Why::Spurious { scans },
-            None => Why::Time {
-                scans: self.bounded.scans().saturating_sub(1),
-            },
+            None => {
+                let scans = self.bounded.scans().saturating_sub(1);
+                match self.limit.is_late() {
+                    true => Why::Time { scans },
+                    false => Why::Effort {
+                        scans,
+                        effort: self.limit.effort(),
+                    },
+                }
+            }
         })
     }
 }
@@ -464,8 +513,6 @@ mod tests {
     use crate::sat::{Answer, Solver};
     use crate::tests::module;
     use rungc_sim::property::{Property, parse};
-    use std::time::Duration;
-    use web_time::Instant;
 
     #[test]
     fn each_way_to_a_proof_leaves_what_others_can_check() {
@@ -481,20 +528,21 @@ mod tests {
                 ..World::default()
             },
             assumed: Vec::new(),
-            time: Duration::from_secs(60),
+            effort: 60_000,
+            time: None,
         };
         let question = OfProperty {
             module: &module,
             property: &Property::Never(both),
             options: &options,
         };
-        let deadline = Instant::now() + options.time;
+        let limit = options.limit();
         let posed = question.posed(&options.world);
-        let mut ways = Ways::new(&question, &options.world, &posed, deadline);
+        let mut ways = Ways::new(&question, &options.world, &posed, &limit);
         let abstracted = ways.timers_abstracted.as_mut().unwrap();
         let attempts = [abstracted, &mut ways.free_scan_times, &mut ways.as_it_is];
         let mut proofs: Vec<_> = attempts
-            .map(|attempt| attempt.invariant(options.time, deadline))
+            .map(|attempt| attempt.invariant(options.effort, &limit))
             .into();
         assert!(proofs.iter().all(Option::is_some));
         // Invariants of bits are part of the proof.
@@ -507,7 +555,7 @@ mod tests {
         let refuted = |proof: &Proof| {
             let formulas = formulas(proof).into_iter();
             let satisfied = formulas.filter(|(_, formula)| {
-                let mut solver = Solver::new(deadline);
+                let mut solver = Solver::new(&limit);
                 let all = formula.all.iter();
                 let all: Vec<_> = all.map(|&lit| solver.lit(&formula.aig, lit)).collect();
                 solver.solve(&all) != Answer::Unsat
@@ -539,7 +587,8 @@ mod tests {
             world: World::default(),
             // A violated assumption does not end a run.
             assumed: vec![parse("!(X001 & X002)", &|_| Vec::new()).unwrap()],
-            time: Duration::from_secs(120),
+            effort: 120_000,
+            time: None,
         };
         let both = parse("Y001 & Y002", &|_| Vec::new()).unwrap();
         let decision = decide(&module, &Property::Never(both), &options);

@@ -11,6 +11,9 @@ use crate::search::{Scan, Trace, with_sign};
 use crate::system::System;
 use rustc_hash::FxHashMap;
 
+/// Nodes of logic that are evaluated, 64 runs at once, in a step of a search.
+pub(crate) const EVALUATED: usize = 4;
+
 /// Random numbers, the same in every run of the program.
 pub(crate) struct Random(u64);
 

@@ -5,12 +5,12 @@
 //! question about a system whose classes are one bit each is simpler, and often answered by that.
 
 use crate::aig::{Aig, Lit, Node};
+use crate::effort::Limit;
 use crate::proof::Fact;
-use crate::random::{Lanes, Random};
+use crate::random::{EVALUATED, Lanes, Random};
 use crate::sat::{Answer, Solver};
 use crate::system::{Latch, System};
 use rustc_hash::FxHashMap;
-use web_time::Instant;
 
 /// Runs by chance before the induction, each of 64 lanes.
 const RUNS: u32 = 8;
@@ -48,15 +48,17 @@ impl Reduced {
 /// The class of each latch; latches that may begin with any value have none. Class 0 keeps what it begins with.
 type Classes = Vec<Option<usize>>;
 
-/// The same system, smaller; `None` if the time is up before anything is proved.
-pub(crate) fn reduced(system: &System, deadline: Instant) -> Option<Reduced> {
+/// The same system, smaller; `None` if the limit is reached before anything is proved.
+pub(crate) fn reduced(system: &System, limit: &Limit) -> Option<Reduced> {
+    limit.charge((RUNS * SCANS) as usize * system.aig.nodes().len() / EVALUATED);
     let mut classes = random_runs(system);
     loop {
-        if Instant::now() > deadline {
+        limit.charge(system.aig.nodes().len());
+        if limit.is_over() {
             return None;
         }
         let reduced = substituted(system, &classes);
-        if holds(system, &reduced, &mut classes, deadline)? {
+        if holds(system, &reduced, &mut classes, limit)? {
             return Some(reduced);
         }
     }
@@ -183,15 +185,10 @@ fn facts(classes: &Classes) -> Vec<Fact> {
         .collect()
 }
 
-/// Checks that classes that hold before a scan hold after it; if not, they are divided. `None`: the time is up.
-fn holds(
-    system: &System,
-    reduced: &Reduced,
-    classes: &mut Classes,
-    deadline: Instant,
-) -> Option<bool> {
+/// Checks that classes that hold before a scan hold after it; if not, they are divided. `None`: the limit is reached.
+fn holds(system: &System, reduced: &Reduced, classes: &mut Classes, limit: &Limit) -> Option<bool> {
     let mut aig = reduced.system.aig.clone();
-    let mut solver = Solver::new(deadline);
+    let mut solver = Solver::new(limit);
     for &constraint in &reduced.system.constraints {
         let constraint = solver.lit(&aig, constraint);
         solver.clause(&[constraint]);
@@ -221,6 +218,7 @@ fn holds(
             Answer::Unknown => return None,
             Answer::Sat => {
                 all_hold = false;
+                limit.charge(reduced.system.aig.nodes().len());
                 let after = after(system, reduced, &solver);
                 split(system, classes, after.into_iter(), 1);
             }
@@ -251,11 +249,10 @@ fn after(system: &System, reduced: &Reduced, solver: &Solver) -> Vec<u64> {
 mod tests {
     use super::reduced;
     use crate::aig::{Aig, Lit};
+    use crate::effort::Limit;
     use crate::model::Key;
     use crate::system::{Latch, System};
     use rungc_syntax::DeviceClass;
-    use std::time::Duration;
-    use web_time::Instant;
 
     fn latch(number: u32, now: Lit, next: Lit, init: Option<bool>) -> Latch {
         Latch {
@@ -305,8 +302,7 @@ mod tests {
     #[test]
     fn only_what_always_holds_is_used() {
         let (system, now) = system();
-        let deadline = Instant::now() + Duration::from_secs(60);
-        let reduced = reduced(&system, deadline).unwrap();
+        let reduced = reduced(&system, &Limit::none()).unwrap();
         let of = |n: usize| reduced.lit(now[n]);
         assert_eq!(of(0), !of(1));
         assert_eq!(of(2), Lit::FALSE);

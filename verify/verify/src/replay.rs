@@ -1,5 +1,6 @@
 //! Counterexamples on the interpreter: no run is reported that has not happened there.
 
+use crate::effort::Limit;
 use crate::model::device_of;
 use crate::model::{CounterPart, Key, TimerPart};
 use crate::search::{Scan, Trace};
@@ -9,7 +10,6 @@ use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
 use rungc_sim::property::{Condition, Monitor, Property, Reading, Watcher};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
-use web_time::Instant;
 
 /// Gives a piece of memory its value; whether a host can.
 fn set(machine: &mut Machine, hal: &mut VirtualHal, key: Key, value: i64) -> bool {
@@ -159,11 +159,11 @@ pub(crate) fn stretched(trace: &Trace, most_ms: u32) -> Trace {
 /// Runs of more scans than this are not simplified scan by scan.
 const SIMPLIFIED: usize = 150;
 
-/// The same run without scans that it does not need, the longer stretches first, as far as the time goes.
+/// The same run without scans that it does not need, the longer stretches first, as far as the limit goes.
 pub fn shortened(
     happens: &dyn Fn(&Trace) -> Option<usize>,
     mut trace: Trace,
-    until: Instant,
+    limit: &Limit,
 ) -> Trace {
     if let Some(scans) = happens(&trace) {
         trace.scans.truncate(scans);
@@ -173,7 +173,7 @@ pub fn shortened(
         // The first scan stays the first.
         let mut at = 1;
         while at < trace.scans.len() {
-            if Instant::now() > until {
+            if limit.is_over() {
                 return trace;
             }
             let mut other = trace.clone();
@@ -193,14 +193,15 @@ pub fn shortened(
 
 /// The same run with what does not matter left out: inputs that stay off, changes that come later, times that are
 /// ordinary. `happens` runs one, and says after how many scans it does what it is about.
-pub fn plain(happens: &dyn Fn(&Trace) -> Option<usize>, mut trace: Trace) -> Trace {
+/// When the limit is reached, the rest stays.
+pub fn plain(happens: &dyn Fn(&Trace) -> Option<usize>, mut trace: Trace, limit: &Limit) -> Trace {
     if let Some(scans) = happens(&trace) {
         trace.scans.truncate(scans);
     }
     let attempt = |trace: &mut Trace, change: &dyn Fn(&mut Trace)| {
         let mut other = trace.clone();
         change(&mut other);
-        if other != *trace && happens(&other) == Some(other.scans.len()) {
+        if other != *trace && !limit.is_over() && happens(&other) == Some(other.scans.len()) {
             *trace = other;
         }
     };

@@ -50,13 +50,13 @@ pub struct Compared {
     pub apart: Formula,
 }
 
-/// Compares the outputs of an old and a new program for the same model. [`Options::time`] is the time for what both
+/// Compares the outputs of an old and a new program for the same model. [`Options::effort`] is that for what both
 /// have in common, and that for each output that needs a separate proof.
 pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
     let modules = [old, new];
-    let deadline = Instant::now() + options.time;
+    let limit = options.limit();
     let names = matching::names(old, new);
-    let product = Product::new(modules, &names, &options.world, &options.assumed, deadline);
+    let product = Product::new(modules, &names, &options.world, &options.assumed, &limit);
     let runs_alike = product.is_equal(Key::Running);
     let numbers = product.outputs();
     let key_of = |number: &u32| Key::Bit(DeviceClass::Y, *number);
@@ -69,8 +69,8 @@ pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
         let Some(at) = asked else {
             return Output::proved(number, None, begin);
         };
-        let until = begin + options.time / 4;
-        let posed = Posed::from(whole.about(questions[at])).simplified(until);
+        let limit = options.limit();
+        let posed = Posed::from(whole.about(questions[at])).simplified(&limit.share(4));
         if posed.system.bad == Lit::FALSE {
             let proof = posed.proof(Method::Invariant(Vec::new()));
             return Output::proved(number, Some(proof), begin);
@@ -86,8 +86,7 @@ pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
             let mut inputs = posed.system.inputs.iter();
             inputs.any(|(_, input)| *input == Input::Gap(*n))
         });
-        let deadline = begin + options.time;
-        let Answer { verdict, proof } = search(&question, &options.world, &posed, deadline);
+        let Answer { verdict, proof } = search(&question, &options.world, &posed, &limit);
         Output {
             number,
             gaps: BTreeSet::from_iter(gaps.map(|(_, gap)| gap.clone()))
@@ -105,6 +104,14 @@ pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
         functions: BTreeSet::from_iter(product.encoder().gaps.iter().cloned())
             .into_iter()
             .collect(),
+    }
+}
+
+impl Compared {
+    /// Returns true if all outputs are proved to be the same, and what is around the PLC is used in the same way.
+    pub fn is_proved(&self) -> bool {
+        let mut outputs = self.outputs.iter();
+        self.same_environment && outputs.all(|output| output.verdict == Verdict::Proved)
     }
 }
 
@@ -131,13 +138,12 @@ struct Differs<'a> {
 
 impl Question for Differs<'_> {
     fn posed(&self, world: &World) -> Posed {
-        let deadline = Instant::now() + self.options.time;
         let product = Product::new(
             self.modules,
             self.names,
             world,
             &self.options.assumed,
-            deadline,
+            &self.options.limit(),
         );
         let output = Key::Bit(DeviceClass::Y, self.number);
         let posed = Posed::from(product.system(output, self.names));
@@ -161,6 +167,10 @@ impl Question for Differs<'_> {
             }
         }
         None
+    }
+
+    fn scan_steps(&self) -> usize {
+        self.modules.iter().map(|module| module.exprs.len()).sum()
     }
 
     /// Returns false: timers must expire at the same time in both.

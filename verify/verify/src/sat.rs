@@ -6,8 +6,8 @@ mod batsat;
 mod cadical;
 
 use crate::aig::{Aig, Lit, Node};
+use crate::effort::Limit;
 use std::ops::Not;
-use web_time::Instant;
 
 #[cfg(not(feature = "cadical"))]
 use batsat::Engine as Chosen;
@@ -21,7 +21,7 @@ pub enum Answer {
     Sat,
     /// There are none.
     Unsat,
-    /// The time is up.
+    /// The limit is reached.
     Unknown,
 }
 
@@ -39,8 +39,8 @@ impl Not for SatLit {
 
 /// Engine that decides clauses.
 trait Engine: Sized {
-    /// An engine that gives up at this time.
-    fn new(deadline: Instant) -> Self;
+    /// An engine that gives up at this limit, and counts its steps.
+    fn new(limit: Limit) -> Self;
 
     /// Adds a clause.
     fn clause(&mut self, lits: &[SatLit]);
@@ -58,16 +58,18 @@ trait Engine: Sized {
 /// A solver, and the clauses of the nodes of one graph that were requested.
 pub struct Solver {
     engine: Chosen,
+    limit: Limit,
     /// The variable of each node.
     variables: Vec<Option<SatLit>>,
     last: i32,
 }
 
 impl Solver {
-    /// A solver that gives up at this time.
-    pub fn new(deadline: Instant) -> Self {
+    /// A solver that gives up at this limit, and counts its steps.
+    pub fn new(limit: &Limit) -> Self {
         Solver {
-            engine: Chosen::new(deadline),
+            engine: Chosen::new(limit.clone()),
+            limit: limit.clone(),
             variables: Vec::new(),
             last: 0,
         }
@@ -81,6 +83,7 @@ impl Solver {
 
     /// Adds a clause.
     pub fn clause(&mut self, lits: &[SatLit]) {
+        self.limit.charge(lits.len());
         self.engine.clause(lits);
     }
 
@@ -155,15 +158,14 @@ impl Solver {
 mod tests {
     use super::{Answer, Solver};
     use crate::aig::Aig;
-    use std::time::Duration;
-    use web_time::Instant;
+    use crate::effort::Limit;
 
     #[test]
     fn assumptions_that_contradict_each_other_are_named() {
         let mut aig = Aig::default();
         let lits = aig.inputs_of(3);
         let both = aig.and(lits[0], lits[1]);
-        let mut solver = Solver::new(Instant::now() + Duration::from_secs(10));
+        let mut solver = Solver::new(&Limit::none());
         let both = solver.lit(&aig, both);
         let inputs = [0, 1, 2].map(|i| solver.lit(&aig, lits[i]));
         assert_eq!(solver.solve(&[both, inputs[2]]), Answer::Sat);
@@ -181,7 +183,6 @@ mod tests {
     #[test]
     fn both_solvers_give_the_same_answers() {
         use super::{Engine, SatLit};
-        let deadline = Instant::now() + Duration::from_secs(60);
         let mut random = 1u64;
         let mut lit = || {
             random = random
@@ -196,8 +197,8 @@ mod tests {
         };
         let mut answers = [0; 2];
         for _ in 0..200 {
-            let mut one = super::batsat::Engine::new(deadline);
-            let mut other = super::cadical::Engine::new(deadline);
+            let mut one = super::batsat::Engine::new(Limit::none());
+            let mut other = super::cadical::Engine::new(Limit::none());
             let mut clauses = Vec::new();
             // Asked again and again with more clauses, as searches do.
             for _ in 0..5 {

@@ -1,12 +1,12 @@
 //! Proofs by induction, and bounded search for counterexamples.
 
+use crate::effort::Limit;
 use crate::model::{Input, Key, device_of};
 use crate::sat::{Answer, Solver};
 use crate::system::System;
 use crate::unroll::Unroller;
 use rungc_models::runs::is_counter32;
 use std::collections::BTreeMap;
-use web_time::Instant;
 
 /// A run that the model allows: what it begins with, and the inputs of each scan.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -33,6 +33,7 @@ pub struct Scan {
 /// Searches from power-on, scan by scan.
 pub(crate) struct Bounded<'s> {
     system: &'s System,
+    limit: Limit,
     unroller: Unroller<'s>,
     solver: Solver,
     /// Supposes what a replay needs: scans of at least a millisecond and the like.
@@ -41,11 +42,12 @@ pub(crate) struct Bounded<'s> {
 
 impl<'s> Bounded<'s> {
     /// A search; `replay_assumptions` leaves out what a replay cannot show.
-    pub fn new(system: &'s System, replay_assumptions: bool, deadline: Instant) -> Self {
+    pub fn new(system: &'s System, replay_assumptions: bool, limit: &Limit) -> Self {
         Bounded {
+            limit: limit.clone(),
             system,
             unroller: Unroller::new(system, true),
-            solver: Solver::new(deadline),
+            solver: Solver::new(limit),
             replay_assumptions,
         }
     }
@@ -57,6 +59,7 @@ impl<'s> Bounded<'s> {
 
     /// Searches one scan further.
     pub fn step(&mut self) -> Step {
+        self.limit.charge(self.system.aig.nodes().len());
         self.unroller.extend();
         let scan = self.unroller.len() - 1;
         let replay_assumptions = self
@@ -146,29 +149,32 @@ pub enum Step {
     Violated(Trace),
     /// There is no such scan: what is assumed contradicts itself.
     Impossible,
-    /// The time is up.
+    /// The limit is reached.
     TimeUp,
 }
 
 /// Induction: if no scan of several in a row violates the property, the next one does not.
 pub struct Induction<'s> {
     system: &'s System,
+    limit: Limit,
     unroller: Unroller<'s>,
     solver: Solver,
 }
 
 impl<'s> Induction<'s> {
     /// Before the first step.
-    pub fn new(system: &'s System, deadline: Instant) -> Self {
+    pub fn new(system: &'s System, limit: &Limit) -> Self {
         Induction {
             system,
+            limit: limit.clone(),
             unroller: Unroller::new(system, false),
-            solver: Solver::new(deadline),
+            solver: Solver::new(limit),
         }
     }
 
     /// Supposes one scan more; whether the next one cannot violate the property then.
     pub fn step(&mut self) -> bool {
+        self.limit.charge(self.system.aig.nodes().len());
         self.unroller.extend();
         let scan = self.unroller.len() - 1;
         for &holds in &self.system.constraints {

@@ -2,16 +2,15 @@
 //! of what comes after.
 
 use crate::aig::{Lit, Node};
+use crate::effort::Limit;
 use crate::model::{Encoder, Input};
 use crate::property::condition;
 use crate::prove::Options;
-use crate::random::{Random, part_of};
+use crate::random::{EVALUATED, Random, part_of};
 use crate::sat::{Answer, SatLit, Solver};
 use crate::system::System;
 use rungc_ir::Module;
 use rungc_sim::property::Condition;
-use std::time::Duration;
-use web_time::Instant;
 
 /// End of a run: whatever the outside does, the next scan breaks an assumption.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -35,8 +34,8 @@ pub enum Broken {
     Together,
 }
 
-/// Time limit for the search.
-const LIMIT: Duration = Duration::from_secs(3);
+/// Limit of the effort for the search.
+const LIMIT: u64 = 3000;
 
 /// Runs that are followed, each for a number of scans.
 const RUNS: (u64, usize) = (6, 400);
@@ -81,15 +80,15 @@ struct Search<'s> {
     /// The solver's literal of each latch before the scan.
     latches: Vec<SatLit>,
     random: Random,
-    deadline: Instant,
+    limit: Limit,
     /// The value of each node in the scan.
     values: Vec<bool>,
 }
 
 impl<'s> Search<'s> {
     fn new(system: &'s System, assumed: &[(Broken, Lit)], scan_ms: u32) -> Self {
-        let deadline = Instant::now() + LIMIT;
-        let mut solver = Solver::new(deadline);
+        let limit = Limit::new(LIMIT, None);
+        let mut solver = Solver::new(&limit);
         let of = |lit: Lit, solver: &mut Solver| solver.lit(&system.aig, lit);
         let always = system.constraints.iter().chain(&system.replay_assumptions);
         Search {
@@ -106,7 +105,7 @@ impl<'s> Search<'s> {
                 .collect(),
             solver,
             random: Random::new(),
-            deadline,
+            limit,
             values: vec![false; system.aig.nodes().len()],
             system,
         }
@@ -125,7 +124,7 @@ impl<'s> Search<'s> {
         let mut inputs = vec![false; self.system.inputs.len()];
         let mut ms = 0;
         for scans in 0..RUNS.1 {
-            if Instant::now() > self.deadline {
+            if self.limit.is_over() {
                 return None;
             }
             self.vary(run, scans == 0, &mut inputs);
@@ -169,6 +168,7 @@ impl<'s> Search<'s> {
     }
 
     fn evaluate(&mut self, latches: &[bool], inputs: &[bool]) {
+        self.limit.charge(self.system.aig.nodes().len() / EVALUATED);
         for (latch, &on) in self.system.latches.iter().zip(latches) {
             self.values[latch.now.node()] = on;
         }

@@ -26,7 +26,12 @@ pub struct VerifyArgs {
     /// Latched devices start at 0, as in a new PLC. Default: at any value.
     #[arg(long)]
     pub cleared: bool,
-    /// Time limit per property. Default: that of rungc.toml, or 60s.
+    /// Limit of the effort per property, in steps of the search; 1000 are about a second. What is found does not depend
+    /// on the machine or its load. Default: 10000, or no limit with a time limit.
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..), value_name = "NUMBER")]
+    pub effort: Option<u64>,
+    /// Time limit per property, in real time. With it, verdicts depend on the speed of the machine. Default: that of
+    /// rungc.toml, or none.
     #[arg(long, value_parser = crate::time::parse, value_name = "TIME")]
     pub timeout: Option<u64>,
     /// Write the single property as a model for other model checkers (AIGER): the property is violated if the model's

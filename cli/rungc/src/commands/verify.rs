@@ -21,12 +21,12 @@ use rungc_sim::property::Condition;
 use rungc_syntax::{Diagnostic, Diagnostics, Span, codes};
 use rungc_verify::certificate::certificate;
 use rungc_verify::model::World;
-use rungc_verify::prove::{Decision, Options, Verdict, Why, decide};
+use rungc_verify::prove::{Decision, EFFORT, Options, Verdict, Why, decide};
 use rungc_verify::vacuous::dead_end;
 use std::time::{Duration, Instant};
 
-/// Time limit of a property, in milliseconds.
-const TIMEOUT_MS: u64 = 60_000;
+/// Time limit of a proof by another solver, if the search has none.
+const TIMEOUT: Duration = Duration::from_secs(60);
 
 /// Message for a program without a property; those of a project without a program are about none.
 fn no_property(subject: &Subject) -> String {
@@ -93,7 +93,12 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
         .collect();
     withdraw(&mut decided, &module, &options, &assumed);
     let proof = decided.first().and_then(|(only, _)| only.proof.as_ref());
-    export::proofs(args, proof.map(certificate), options.time, cx)?;
+    export::proofs(
+        args,
+        proof.map(certificate),
+        options.time.unwrap_or(TIMEOUT),
+        cx,
+    )?;
     let runs = shown(&requested, &decided);
     let differing = engines::replay(args.replay, std::slice::from_ref(&module), &runs, cx)?;
     for (number, why) in differing {
@@ -181,7 +186,7 @@ fn shown<'a>(
     found.collect()
 }
 
-/// Assumptions about the environment of the program, and the time limit.
+/// Assumptions about the environment of the program, and the limits.
 fn options(
     args: &VerifyArgs,
     reader: &Reader,
@@ -189,7 +194,10 @@ fn options(
     external: &ExternalWrites,
 ) -> std::result::Result<Options, Failure> {
     let timeout = reader.project().and_then(|p| p.verify.timeout.as_ref());
-    let timeout = reader.chosen(args.timeout, timeout, TIMEOUT_MS)?;
+    let timeout = match (args.timeout, timeout) {
+        (None, None) => None,
+        (given, named) => Some(Duration::from_millis(reader.chosen(given, named, 0)?)),
+    };
     Ok(Options {
         world: World {
             scan_ms: reader.scan_ms()?,
@@ -198,7 +206,12 @@ fn options(
             ..World::default()
         },
         assumed: assumed.iter().map(|(_, a)| a.clone()).collect(),
-        time: Duration::from_millis(timeout),
+        effort: match (args.effort, timeout) {
+            (Some(effort), _) => effort,
+            (None, Some(_)) => u64::MAX,
+            (None, None) => EFFORT,
+        },
+        time: timeout,
     })
 }
 

@@ -18,6 +18,7 @@ use rungc_rt::{Class, Plc, Program, RtFn, Stop, VirtualHal};
 use rungc_sim::property::{Property, parse};
 use rungc_syntax::DeviceClass;
 use rungc_verify::aig::Lit;
+use rungc_verify::effort::Limit;
 use rungc_verify::model::{CounterPart, Digit, Encoder, Input, Key, TimerPart, World};
 use rungc_verify::prove::{Options, Verdict, decide};
 use rungc_verify::sat::{Answer, Solver};
@@ -197,7 +198,7 @@ fn follow(module: &Module, seed: u64, scans: u64, exact: &mut Exactness) -> Resu
         system: &system,
         machine: Machine::new(module),
         unroller: Unroller::new(&system, true),
-        solver: Solver::new(Instant::now() + Duration::from_secs(300)),
+        solver: Solver::new(&Limit::none()),
     };
     let mut rng = Rng::new(seed ^ 0x7E57);
     let (mut now_ms, mut elapsed) = (0, 0);
@@ -382,9 +383,8 @@ fn each_two_outputs_of_the_examples_exclude_each_other_or_do_not() {
                 let requested = format!("{a} & {b}");
                 let property = Property::Never(parse(&requested, &|_| Vec::new()).unwrap());
                 let options = Options {
-                    world: World::default(),
-                    assumed: Vec::new(),
-                    time: Duration::from_secs(300),
+                    effort: 300_000,
+                    ..Options::default()
                 };
                 let begin = Instant::now();
                 match decide(&module, &property, &options).verdict {

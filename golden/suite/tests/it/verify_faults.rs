@@ -3,14 +3,12 @@
 
 use crate::faults::{self, Fault};
 use rungc_verify::certificate::certificate;
-use rungc_verify::model::World;
 use rungc_verify::proof::{Method, Proof};
 use rungc_verify::prove::{Options, Verdict, decide};
 use rungc_verify::written::{case, outcomes, quoted};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
-use std::time::Duration;
 
 /// Has a solver that others wrote confirm that no formula of a proof can be satisfied; what is wrong.
 fn unconfirmed(proof: &Proof, folder: &Path) -> Vec<String> {
@@ -71,14 +69,14 @@ fn planted_faults_are_found_and_repaired_programs_are_proved() {
     for fault in faults::all() {
         count += 1;
         let property = fault.property();
-        // A fault is found however slow the machine is; a tenth of the repaired programs may stay undecided.
-        let options = |seconds| Options {
-            world: World::default(),
+        // A tenth of the repaired programs may stay undecided.
+        let options = |effort| Options {
             assumed: fault.assumed(),
-            time: Duration::from_secs(seconds),
+            effort,
+            ..Options::default()
         };
         let module = faults::module(&fault.faulty, &property);
-        let found = decide(&module, &property, &options(300));
+        let found = decide(&module, &property, &options(300_000));
         match &found.verdict {
             Verdict::Found(trace) => {
                 let case = case(&fault.name, &module, &property, trace);
@@ -89,7 +87,7 @@ fn planted_faults_are_found_and_repaired_programs_are_proved() {
         let found = decide(
             &faults::module(&fault.repaired, &property),
             &property,
-            &options(30),
+            &options(30_000),
         );
         match found.verdict {
             Verdict::Proved => match &found.proof {

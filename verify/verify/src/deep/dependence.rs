@@ -2,20 +2,19 @@
 //! which have to be released for the event to happen.
 
 use super::{Answer, Evidence, Finding, by_induction, never};
+use crate::effort::Limit;
 use crate::model::{Encoder, device_of, is_settable};
 use crate::system::System;
 use rungc_models::runs::is_special;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
-use std::time::Duration;
-use web_time::Instant;
 
 type Device = (DeviceClass, u32);
 
-/// Time limit for what one proof depends on.
-const TIME: Duration = Duration::from_millis(1000);
-/// Time limit of one attempt to prove it with fewer assumptions.
-const ATTEMPT: Duration = Duration::from_millis(200);
+/// Limit of the effort for what one proof depends on.
+const ALL: u64 = 1000;
+/// Limit of the effort for one attempt to prove it with fewer assumptions.
+const ATTEMPT: u64 = 200;
 
 /// A finding with the devices that its proof depends on. Those that it names are tried first: there may be hundreds of
 /// others, and not the time for all.
@@ -23,7 +22,7 @@ pub(super) fn dependent(
     finding: Finding,
     named: &BTreeSet<Device>,
     (system, encoder): (&System, &Encoder),
-    end: Instant,
+    limit: &Limit,
 ) -> Finding {
     let keys = system.latches.iter().map(|latch| latch.key);
     let devices = keys.filter(|key| is_settable(*key)).filter_map(device_of);
@@ -35,7 +34,7 @@ pub(super) fn dependent(
     }
     let mut proof = Proof {
         system,
-        end: end.min(Instant::now() + TIME),
+        limit: limit.part(ALL),
         evidence: finding.evidence,
     };
     // A panel that writes what every scan writes anew changes little.
@@ -80,30 +79,28 @@ pub(super) fn dependent(
     }
 }
 
-/// A proof, and the time for what it depends on.
+/// A proof, and the limit for what it depends on.
 struct Proof<'s> {
     system: &'s System,
-    end: Instant,
+    limit: Limit,
     evidence: Evidence,
 }
 
 impl Proof<'_> {
     /// The answer if something else writes these devices.
     fn without(&self, released: &BTreeSet<Device>) -> Answer {
-        let now = Instant::now();
-        if now >= self.end {
+        if self.limit.is_over() {
             return Answer::Open;
         }
         let is_released =
             |key| is_settable(key) && device_of(key).is_some_and(|of| released.contains(&of));
-        let (system, end) = (
-            self.system.releasing(is_released),
-            self.end.min(now + ATTEMPT),
-        );
+        self.limit.charge(self.system.aig.nodes().len());
+        let system = self.system.releasing(is_released);
+        let attempt = self.limit.part(ATTEMPT);
         match self.evidence {
             // An invariant would take longer than the proof has.
-            Evidence::Induction(_) => by_induction(&system, end).unwrap_or(Answer::Open),
-            _ => never(&system, end),
+            Evidence::Induction(_) => by_induction(&system, &attempt).unwrap_or(Answer::Open),
+            _ => never(&system, &attempt),
         }
     }
 

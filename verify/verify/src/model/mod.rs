@@ -19,6 +19,7 @@ mod timing;
 pub use memory::device_of;
 pub(crate) use memory::is_settable;
 pub use probes::{Compared, Expiry, Probes, Rung, Written};
+pub use restart::AFTER_STOP;
 pub use shared::{Names, Shared};
 use std::collections::{BTreeMap, BTreeSet};
 

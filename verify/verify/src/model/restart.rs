@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 const KEEP: Key = Key::Bit(DeviceClass::M, M_KEEP_IN_STOP.number());
 
 /// Name of what the PLC does in STOP.
-const STOP: &str = "special devices and times after STOP";
+pub const AFTER_STOP: &str = "special devices and times after STOP";
 
 /// Returns true if a special relay is what it is in every scan, whatever it was before.
 fn is_of_scan(key: Key) -> bool {
@@ -81,12 +81,12 @@ impl Encoder<'_> {
         }
         let mut changed = self.begin_writes();
         changed.insert(Key::Now);
-        let other = self.fresh(1, STOP)[0];
+        let other = self.fresh(1, AFTER_STOP)[0];
         self.replay_assumptions.push(!other);
         let other = self.aig.and(restart, other);
         for key in changed.difference(open) {
             if let Some(bits) = self.state.get(key).cloned() {
-                let fresh = self.fresh(bits.len(), STOP);
+                let fresh = self.fresh(bits.len(), AFTER_STOP);
                 let value = self.aig.select(other, &fresh, &bits);
                 self.state.insert(*key, value);
             }

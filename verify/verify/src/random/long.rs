@@ -1,10 +1,10 @@
 //! Long runs: what counters and timers need many scans for.
 
 use super::rarity::Rarity;
-use super::{Habits, Lanes, Random};
+use super::{EVALUATED, Habits, Lanes, Random};
+use crate::effort::Limit;
 use crate::search::Trace;
 use crate::system::System;
-use web_time::Instant;
 
 /// The most words that the inputs of a run take.
 const WORDS: usize = 4_000_000;
@@ -41,14 +41,14 @@ impl<'s> LongRuns<'s> {
         }
     }
 
-    /// Continues for some time; `happens` runs what was found on the interpreter.
+    /// Continues up to a limit; `happens` runs what was found on the interpreter.
     pub fn search(
         &mut self,
-        until: Instant,
+        limit: &Limit,
         happens: &mut dyn FnMut(&Trace) -> bool,
     ) -> Option<Trace> {
         let scans = SCANS.min(WORDS / self.system.inputs.len().max(1));
-        while Instant::now() < until && self.failed < ATTEMPTS {
+        while !limit.is_over() && self.failed < ATTEMPTS {
             let mut lanes = match self.lanes.take() {
                 Some(lanes) => lanes,
                 None => {
@@ -56,7 +56,7 @@ impl<'s> LongRuns<'s> {
                     Lanes::new(self.system, &mut self.random)
                 }
             };
-            if let Some(trace) = self.stretch(&mut lanes, happens) {
+            if let Some(trace) = self.stretch(&mut lanes, limit, happens) {
                 return Some(trace);
             }
             self.rarity.count(&lanes);
@@ -72,6 +72,7 @@ impl<'s> LongRuns<'s> {
     fn stretch(
         &mut self,
         lanes: &mut Lanes<'s>,
+        limit: &Limit,
         happens: &mut dyn FnMut(&Trace) -> bool,
     ) -> Option<Trace> {
         let random = &mut self.random;
@@ -79,6 +80,7 @@ impl<'s> LongRuns<'s> {
         let ms = [1, 10, 10, 100][random.below(4) as usize].min(self.scan_ms);
         let length = 1 << (4 + 2 * random.below(4));
         for _ in 0..length {
+            limit.charge(self.system.aig.nodes().len() / EVALUATED + self.system.inputs.len());
             let ms = if lanes.scans.is_empty() { 0 } else { ms };
             lanes.scan_by(ms, &habits, random);
             let bad = lanes.value(self.system.bad);

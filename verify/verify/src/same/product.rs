@@ -2,6 +2,7 @@
 
 use crate::aig::Lit;
 use crate::bits::Bits;
+use crate::effort::Limit;
 use crate::model::{Encoder, Key, Names, Shared, World, device_of};
 use crate::proof::Formula;
 use crate::property::{self, OUTPUTS_OFF};
@@ -13,7 +14,6 @@ use rungc_sim::property::Condition;
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashSet;
 use std::collections::{BTreeMap, BTreeSet};
-use web_time::Instant;
 
 /// Two programs that are executed at the same time with the same inputs.
 ///
@@ -35,7 +35,7 @@ impl<'m> Product<'m> {
         names: &Names,
         world: &World,
         assumed: &[Condition],
-        deadline: Instant,
+        limit: &Limit,
     ) -> Self {
         let [old_module, new_module] = modules;
         let (world, named) = common_world(modules, world);
@@ -59,7 +59,7 @@ impl<'m> Product<'m> {
                 apart: apart.clone(),
                 free,
             };
-            let differing = product.differing(names, deadline);
+            let differing = product.differing(names, limit);
             if differing.is_empty() {
                 return product;
             }
@@ -68,7 +68,7 @@ impl<'m> Product<'m> {
     }
 
     /// Memory that begins a scan equal and may not end it so.
-    fn differing(&self, names: &Names, deadline: Instant) -> Vec<Key> {
+    fn differing(&self, names: &Names, limit: &Limit) -> Vec<Key> {
         let old: BTreeMap<Key, &Bits> = self
             .old
             .memory()
@@ -90,7 +90,7 @@ impl<'m> Product<'m> {
             let same = same && {
                 let equal = aig.equal(other, after);
                 let solver = solver.get_or_insert_with(|| {
-                    let mut solver = Solver::new(deadline);
+                    let mut solver = Solver::new(limit);
                     for &holds in self.old.constraints().iter().chain(self.new.constraints()) {
                         let holds = solver.lit(&aig, holds);
                         solver.clause(&[holds]);

@@ -1,11 +1,48 @@
 //! BatSat: MiniSat's algorithm in Rust, quick in thousands of small questions.
 
 use super::{Answer, SatLit};
-use ::batsat::{BasicSolver, Lit, SolverInterface, Var, lbool};
-use web_time::Instant;
+use crate::effort::Limit;
+use ::batsat::{Callbacks, ClauseKind, Lit, Solver, SolverInterface, SolverOpts, Var, lbool};
+use std::cell::Cell;
 
 /// The solver.
-pub(super) struct Engine(BasicSolver);
+pub(super) struct Engine(Solver<Counter>);
+
+/// Counts the steps of a solver while it searches: after each decision and each conflict as many as there were literals
+/// propagated on average before.
+struct Counter {
+    limit: Limit,
+    rate: u64,
+    /// Decisions and conflicts so far.
+    rounds: Cell<u64>,
+}
+
+/// Literals that a decision propagates, as long as nothing is known.
+const USUAL: u64 = 50;
+
+/// Steps of a conflict for each literal of the clause that is learnt.
+const LEARNT: u64 = 20;
+
+impl Counter {
+    fn round(&self) {
+        self.rounds.set(self.rounds.get() + 1);
+        self.limit.charge(self.rate as usize);
+    }
+}
+
+impl Callbacks for Counter {
+    fn on_new_clause(&mut self, clause: &[Lit], kind: ClauseKind) {
+        if kind == ClauseKind::Learnt {
+            self.round();
+            self.limit.charge(clause.len() * LEARNT as usize);
+        }
+    }
+
+    fn stop(&self) -> bool {
+        self.round();
+        self.limit.is_over()
+    }
+}
 
 impl Engine {
     /// The literals in the library's terms; the solver has their variables from now on.
@@ -20,10 +57,13 @@ impl Engine {
 }
 
 impl super::Engine for Engine {
-    fn new(deadline: Instant) -> Self {
-        let mut solver = BasicSolver::default();
-        solver.cb_mut().set_stop(move || Instant::now() > deadline);
-        Engine(solver)
+    fn new(limit: Limit) -> Self {
+        let counter = Counter {
+            limit,
+            rate: USUAL,
+            rounds: Cell::new(0),
+        };
+        Engine(Solver::new(SolverOpts::default(), counter))
     }
 
     fn clause(&mut self, lits: &[SatLit]) {
@@ -34,7 +74,17 @@ impl super::Engine for Engine {
 
     fn solve(&mut self, assumed: &[SatLit]) -> Answer {
         let assumed = self.known(assumed);
-        match self.0.solve_limited(&assumed) {
+        let before = (self.0.num_propagations(), self.0.cb().rounds.get());
+        let found = self.0.solve_limited(&assumed);
+        let propagated = self.0.num_propagations() - before.0;
+        let counter = self.0.cb();
+        let counted = (counter.rounds.get() - before.1) * counter.rate;
+        counter
+            .limit
+            .charge(propagated.saturating_sub(counted) as usize);
+        let rate = self.0.num_propagations() / counter.rounds.get().max(1);
+        self.0.cb_mut().rate = rate.max(1);
+        match found {
             found if found == lbool::TRUE => Answer::Sat,
             found if found == lbool::FALSE => Answer::Unsat,
             _ => Answer::Unknown,

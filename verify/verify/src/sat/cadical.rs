@@ -1,28 +1,32 @@
 //! CaDiCaL, a C++ library that simplifies clauses between questions.
 
 use super::{Answer, SatLit};
+use crate::effort::Limit;
 use ::cadical::{Callbacks, Solver};
-use web_time::Instant;
 
 /// The solver.
 pub(super) struct Engine {
-    solver: Solver<Deadline>,
+    solver: Solver<Counter>,
     assumed: Vec<SatLit>,
 }
 
-/// Time at which the solver gives up.
-struct Deadline(Instant);
+/// Counts the steps of a solver: a number each time that it asks whether to go on.
+struct Counter(Limit);
 
-impl Callbacks for Deadline {
+/// Steps from one such question to the next.
+const ASKED: usize = 1000;
+
+impl Callbacks for Counter {
     fn terminate(&mut self) -> bool {
-        Instant::now() > self.0
+        self.0.charge(ASKED);
+        self.0.is_over()
     }
 }
 
 impl super::Engine for Engine {
-    fn new(deadline: Instant) -> Self {
+    fn new(limit: Limit) -> Self {
         let mut solver = Solver::new();
-        solver.set_callbacks(Some(Deadline(deadline)));
+        solver.set_callbacks(Some(Counter(limit)));
         Engine {
             solver,
             assumed: Vec::new(),

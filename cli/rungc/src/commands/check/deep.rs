@@ -24,10 +24,9 @@ use rungc_syntax::{
 use rungc_verify::deep::{Evidence, Finding, Kind, look, world};
 use rungc_verify::replay::story;
 use std::collections::BTreeSet;
-use std::time::Duration;
 
-/// Time limit for a program.
-const TIME: Duration = Duration::from_secs(20);
+/// Limit of the effort for a program.
+const EFFORT: u64 = 20_000;
 
 /// Maximum number of devices that a finding names.
 const SHOWN: usize = 6;
@@ -66,7 +65,7 @@ pub fn findings(subject: &Subject, read: &Read, checked: &Compiled) -> Found {
     let steps = place.steps_of_ladders().filter(|_| !external.has_clients);
     let steps = steps.map(|step| (step.class, step.number));
     let world = world(external.devices.keys().copied().collect(), steps.collect());
-    let report = look(&module, world.clone(), TIME);
+    let report = look(&module, world.clone(), EFFORT);
     let mut placed: Vec<Placed> = report
         .findings
         .iter()

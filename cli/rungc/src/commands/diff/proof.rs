@@ -10,10 +10,9 @@ use rungc_verify::model::World;
 use rungc_verify::prove::{Options, Verdict};
 use rungc_verify::same;
 use std::collections::BTreeSet;
-use std::time::Duration;
 
-/// Time limits: for all outputs together, and for one of them.
-const TIME: [Duration; 2] = [Duration::from_secs(10), Duration::from_secs(2)];
+/// Limits of the effort: for all outputs together, and for one of them.
+const EFFORT: [u64; 2] = [10_000, 2000];
 
 /// The longest time from one scan to the next that proofs suppose, in milliseconds.
 pub(super) fn scan_ms() -> u32 {
@@ -33,11 +32,10 @@ pub(super) fn proved(old: &Side, new: &Side, behaviour: &mut Behaviour) -> Vec<u
     let (Some(old), Some(new)) = (module(old), module(new)) else {
         return Vec::new();
     };
-    let [all, one] = TIME;
+    let [all, one] = EFFORT;
     let options = Options {
-        world: World::default(),
-        assumed: Vec::new(),
-        time: one.min(all / u32::try_from(outputs).unwrap_or(u32::MAX)),
+        effort: one.min(all / outputs as u64),
+        ..Options::default()
     };
     let outputs = same::compare(&old, &new, &options).outputs;
     let outputs = outputs

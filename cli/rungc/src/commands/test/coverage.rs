@@ -10,7 +10,13 @@ use crate::args::{CoverageFormat, EngineChoice, Shard, TestArgs};
 use crate::{output, progress};
 use rungc_coverage::mutants::{self, Fate, Mutant};
 use rungc_coverage::{Covered, cover, html, lcov, text};
+use rungc_ir::Module;
+use rungc_ir::passes::simplify;
+use rungc_lower::compile::{CompileOptions, compile};
 use rungc_sim::plctest::{Suite, TestFile};
+use rungc_syntax::Program;
+use rungc_verify::prove::Options;
+use rungc_verify::same::compare;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -103,6 +109,45 @@ fn keep(mutants: &mut Vec<Mutant>, program: &Covered, shard: Shard) {
     });
 }
 
+/// Limits of the effort for proofs that mutants are equivalent: for all of a program, and for one.
+const EFFORT: [u64; 2] = [10_000, 300];
+
+/// Finds the mutants among those that no case has noticed of which no run changes an output.
+fn tell_equivalent(program: &Covered, mutants: &[Mutant], fates: &mut [Fate]) {
+    let survived = fates.iter().filter(|fate| **fate == Fate::Survived).count();
+    let Some(old) = module(program, &program.program).filter(|_| survived > 0) else {
+        return;
+    };
+    let [all, one] = EFFORT;
+    let options = Options {
+        effort: one.min(all / survived as u64),
+        ..Options::default()
+    };
+    let survivors = mutants.iter().zip(fates);
+    for (mutant, fate) in survivors.filter(|(_, fate)| **fate == Fate::Survived) {
+        if interruption::is_requested() {
+            return;
+        }
+        let Some(new) = module(program, &mutant.applied(&program.program)) else {
+            continue;
+        };
+        if compare(&old, &new, &options).is_proved() {
+            *fate = Fate::Equivalent;
+        }
+    }
+}
+
+fn module(covered: &Covered, program: &Program) -> Option<Module> {
+    let options = CompileOptions {
+        model: Some(covered.model.id),
+        optimise: false,
+        ..CompileOptions::default()
+    };
+    let mut module = compile(program, &options).module?;
+    simplify(&mut module);
+    Some(module)
+}
+
 /// Runs the mutants of all programs.
 fn judge(args: &TestArgs, suite: &Suite, programs: &[Covered], cx: Context) -> Result {
     let (mut shown, mut gaps, mut noticed) = (String::new(), 0, 0);
@@ -117,6 +162,8 @@ fn judge(args: &TestArgs, suite: &Suite, programs: &[Covered], cx: Context) -> R
             !interruption::is_requested()
         });
         bar.finish_and_clear();
+        let mut fates = fates;
+        tell_equivalent(program, &all, &mut fates);
         if interruption::is_requested() {
             return Ok(Outcome::Interrupted);
         }

@@ -140,7 +140,11 @@ pub fn contradiction(end: &DeadEnd, assumed: &[String], scan_ms: u32) -> String 
 pub fn reason(why: &Why) -> String {
     match why {
         Why::Time { scans } => format!(
-            "the time was up; no run of {} does it",
+            "the time was up (`--timeout`), on this machine; no run of {} does it",
+            counted(*scans, "scan")
+        ),
+        Why::Effort { scans, effort } => format!(
+            "an effort of {effort} was not enough (`--effort`); no run of {} does it",
             counted(*scans, "scan")
         ),
         Why::Spurious { scans } => format!(

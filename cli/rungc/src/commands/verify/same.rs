@@ -76,7 +76,7 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     withdraw(&mut compared, &modules, &options, &assumed);
     let proved = compared.outputs.iter().any(is_same);
     let proofs = proved.then(|| certificate::of_comparison(&compared));
-    export::proofs(args, proofs, options.time, cx)?;
+    export::proofs(args, proofs, options.time.unwrap_or(super::TIMEOUT), cx)?;
     let names = [&before, &subject].map(|subject| subject.file.display().to_string());
     let shown = shown(&compared);
     for (number, why) in engines::replay(args.replay, &modules, &shown, cx)? {
