@@ -1,7 +1,7 @@
 //! Runs on the other engines: emitted C and Rust must do what the interpreter does.
 
 use crate::model::{CounterPart, Key, TimerPart};
-use crate::replay::Run;
+use crate::replay::{Run, start};
 use crate::search::Trace;
 use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
@@ -45,7 +45,7 @@ pub fn compare(
 ) -> Result<(), Mismatch> {
     engine.execute(Request::Case(number))?;
     let mut run = Run::new(module, trace);
-    for (&key, &value) in &trace.start {
+    for (key, value) in start(module, trace) {
         set(engine, key, value)?;
     }
     let mut now_ms = 0u32;

@@ -53,6 +53,14 @@ fn get(machine: &Machine, key: Key) -> Option<i64> {
     }
 }
 
+/// Values of latched memory with which a program begins a trace. Of two programs, each has its own latched devices.
+pub(crate) fn start(module: &Module, trace: &Trace) -> impl Iterator<Item = (Key, i64)> {
+    let start = trace.start.iter().map(|(&key, &value)| (key, value));
+    start.filter(|(key, _)| {
+        device_of(*key).is_none_or(|(class, number)| module.is_latched(class, number))
+    })
+}
+
 /// A program that is given a trace.
 pub struct Run<'m> {
     /// The program.
@@ -67,7 +75,7 @@ impl<'m> Run<'m> {
     pub fn new(module: &'m Module, trace: &Trace) -> Self {
         let mut machine = Machine::new(module);
         let mut hal = VirtualHal::new();
-        for (&key, &value) in &trace.start {
+        for (key, value) in start(module, trace) {
             set(&mut machine, &mut hal, key, value);
         }
         Run {
@@ -283,8 +291,10 @@ pub struct Change {
 pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change> {
     let mut run = Run::new(module, trace);
     let named = |(&key, &value): (&Key, &i64)| Some((name(key)?, device_of(key)?, value.into()));
-    let start = trace.start.iter().filter(|(_, value)| **value != 0);
-    let start: Vec<Setting> = start.filter_map(named).collect();
+    let start = start(module, trace).filter(|(_, value)| *value != 0);
+    let start: Vec<Setting> = start
+        .filter_map(|(key, value)| named((&key, &value)))
+        .collect();
     let mut changes: Vec<Change> = Vec::new();
     let mut known: BTreeMap<Key, i64> = BTreeMap::new();
     let mut now_ms = 0u64;

@@ -6,6 +6,8 @@
 
 mod matching;
 mod product;
+#[cfg(test)]
+mod tests;
 
 use crate::aig::Lit;
 use crate::model::{Gap, Input, Key, Names, World};
@@ -45,6 +47,8 @@ pub struct Compared {
     pub same_environment: bool,
     /// Operations not modelled in either, assumed to be the same function in both.
     pub functions: Vec<Gap>,
+    /// Devices of both programs that only one of them latches: after power-off, they are another value.
+    pub latched_apart: Vec<(DeviceClass, u32)>,
     /// Formula that is never satisfied: a scan begins with equal values in all memory that both have in common, and
     /// ends with a difference in it.
     pub apart: Formula,
@@ -100,6 +104,7 @@ pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
     Compared {
         outputs: outputs.collect(),
         same_environment: product.same_environment(),
+        latched_apart: product.latched_apart(),
         apart: product.apart(&names),
         functions: BTreeSet::from_iter(product.encoder().gaps.iter().cloned())
             .into_iter()

@@ -460,6 +460,11 @@ impl<'m> Encoder<'m> {
             .collect()
     }
 
+    /// The program.
+    pub fn module(&self) -> &'m Module {
+        self.module
+    }
+
     /// Supposes that something holds after every scan.
     pub fn suppose(&mut self, holds: Lit) {
         self.constraints.push(holds);

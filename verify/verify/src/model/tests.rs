@@ -121,3 +121,51 @@ fn gaps_name_the_instruction_that_causes_them() {
             .any(|gap| gap.what == "pulses of PLSY K1000 K0 Y000" && gap.is_instruction)
     );
 }
+
+/// Verdicts under load: a thread that keeps a processor busy, and others that decide the same.
+#[test]
+fn verdicts_depend_on_effort_and_not_on_load() {
+    // Y002 needs far more scans than the effort allows.
+    let list = "LD X000\nOUT C0 K30000\nLD C0\nOUT Y002\nLD X001\nOUT T0 K3\nLD T0\nANI X002\nOUT Y000\nLD X002\n\
+                OUT Y001\nLDP X003\nADD D0 K7 D0\nLD> D0 K20\nMOV K0 D0\nLD= D0 K13\nOUT Y003\nEND\n";
+    let decisions = || -> Vec<String> {
+        let conditions = ["Y000 & Y001", "Y002 & Y001", "Y003", "Y000 & Y002"];
+        let decided = conditions.map(|condition| {
+            let condition = parse(condition, &|_| Vec::new()).unwrap();
+            let options = Options {
+                effort: 60,
+                ..Options::default()
+            };
+            decide(&module(list), &Property::Never(condition), &options)
+        });
+        let verdicts = decided
+            .into_iter()
+            .map(|decision| format!("{:?}", decision.verdict));
+        verdicts.collect()
+    };
+    let alone = decisions();
+    assert!(
+        alone.iter().any(|verdict| verdict.contains("Effort")),
+        "{alone:?}"
+    );
+    let is_over = std::sync::atomic::AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        for _ in 0..1 {
+            scope.spawn(|| {
+                while !is_over.load(std::sync::atomic::Ordering::Relaxed) {
+                    std::hint::spin_loop();
+                }
+            });
+        }
+        let others: Vec<_> = (0..2).map(|_| scope.spawn(decisions)).collect();
+        let others: Vec<_> = others
+            .into_iter()
+            .map(|other| other.join().unwrap())
+            .collect();
+        is_over.store(true, std::sync::atomic::Ordering::Relaxed);
+        assert!(
+            others.iter().all(|other| *other == alone),
+            "{alone:?}: {others:?}"
+        );
+    });
+}

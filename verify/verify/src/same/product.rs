@@ -162,6 +162,18 @@ impl<'m> Product<'m> {
         self.is_equal(Key::Outer)
     }
 
+    /// Devices of both programs that only one of them latches.
+    pub fn latched_apart(&self) -> Vec<(DeviceClass, u32)> {
+        let [old, new] = [&self.old, &self.new].map(Encoder::module);
+        let keys = self.old.memory().map(|(key, ..)| key);
+        let devices = keys.filter(|key| self.new.before(*key).is_some());
+        let devices = devices.filter_map(device_of);
+        let apart = devices.filter(|&(class, number)| {
+            old.is_latched(class, number) != new.is_latched(class, number)
+        });
+        BTreeSet::from_iter(apart).into_iter().collect()
+    }
+
     /// The newer of the encoders, which knows the gaps of both.
     pub fn encoder(&self) -> &Encoder<'m> {
         &self.new

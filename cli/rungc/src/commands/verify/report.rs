@@ -5,7 +5,7 @@ use crate::commands::{Outcome, counted};
 use crate::report::junit::{Case, Problem};
 use rungc_ir::Module;
 use rungc_sim::property::Property;
-use rungc_syntax::codes;
+use rungc_syntax::{DeviceClass, codes};
 use rungc_verify::model::{Gap, Key, World, device_of};
 use rungc_verify::prove::{Decision, FOREVER_MS, Options, Verdict, Why};
 use rungc_verify::replay::{Change, Setting, story};
@@ -265,15 +265,18 @@ fn untouched(external: &ExternalWrites) -> String {
     )
 }
 
-/// Names of devices.
+/// Names of the devices of memory.
 fn list(keys: &[Key]) -> String {
-    const SHOWN: usize = 8;
-    let names = keys.iter().filter_map(|&key| device_of(key));
+    let found = keys.iter().filter_map(|&key| device_of(key));
     // A timer is a value and a contact.
-    let names: Vec<String> = BTreeSet::from_iter(names)
-        .into_iter()
-        .map(|(class, n)| class.number(n).to_string())
-        .collect();
+    devices(&Vec::from_iter(BTreeSet::from_iter(found)))
+}
+
+/// Names of devices.
+pub fn devices(of: &[(DeviceClass, u32)]) -> String {
+    const SHOWN: usize = 8;
+    let names = of.iter().map(|(class, n)| class.number(*n).to_string());
+    let names: Vec<String> = names.collect();
     match names.len() > SHOWN {
         true => format!(
             "{} and {} more",

@@ -264,6 +264,10 @@ fn text(compared: &Compared, names: &[String; 2], module: &Module, supposed: &[S
         }
         report::gaps(&mut text, &output.gaps);
     }
+    if !compared.latched_apart.is_empty() {
+        let list = report::devices(&compared.latched_apart);
+        let _ = writeln!(text, "latched in one of the programs only: {list}");
+    }
     if !compared.same_environment {
         let _ = writeln!(
             text,

@@ -1,0 +1,37 @@
+//! Comparisons of programs.
+
+use super::compare;
+use crate::prove::{Options, Verdict};
+use crate::tests::module;
+use rungc_ir::Module;
+use rungc_syntax::DeviceClass;
+
+/// The program with D0 latched, as the parameters of a project may have it.
+fn with_latched(list: &str) -> Module {
+    let mut module = module(list);
+    for range in module.ranges.to_mut() {
+        range.latched |= range.class == DeviceClass::D && range.first == 0;
+    }
+    module
+}
+
+#[test]
+fn other_latched_devices_are_compared_and_named() {
+    const LIST: &str = "LD X000\nMOV K5 D0\nLD= D0 K5\nOUT Y000\nLD X001\nOUT Y001\nEND\n";
+    let compared = compare(&module(LIST), &with_latched(LIST), &Options::default());
+    assert_eq!(compared.latched_apart, [(DeviceClass::D, 0)]);
+    let [y0, y1] = &compared.outputs[..] else {
+        panic!("{compared:?}");
+    };
+    // After power-off, D0 is still 5 in one of them.
+    let Verdict::Found(trace) = &y0.verdict else {
+        panic!("{y0:?}");
+    };
+    assert_eq!(trace.start.values().copied().collect::<Vec<_>>(), [5]);
+    assert_eq!(y1.verdict, Verdict::Proved);
+    // Where every scan writes it first, that does not matter.
+    let first = LIST.replace("LD X000\nMOV K5 D0", "LD M8000\nMOV K4X000 D0");
+    let compared = compare(&module(&first), &with_latched(&first), &Options::default());
+    assert!(compared.is_proved(), "{compared:?}");
+    assert_eq!(compared.latched_apart, [(DeviceClass::D, 0)]);
+}
