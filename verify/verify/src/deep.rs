@@ -5,6 +5,8 @@
 //! a run that the interpreter has confirmed.
 
 mod dependence;
+#[cfg(test)]
+mod tests;
 
 use crate::aig::Lit;
 use crate::effort::Limit;

@@ -9,7 +9,7 @@ super::codes! {
 
     PROPERTY_UNDECIDED = "W0801" "property-undecided" Warning None,
     "whether the program has a property is not known",
-    "`rungc verify` has neither found a run that violates the property nor a proof that there is none: the time was up (`--timeout`), or something that the property depends on is not modelled, so that a run of the model is not one of the program. The report names what is not modelled.",
+    "`rungc verify` has neither found a run that violates the property nor a proof that there is none: the effort was not enough (`--effort` allows more), the time was up (`--timeout`), or something that the property depends on is not modelled, so that a run of the model is not one of the program. The report names what is not modelled.",
     wrong: "",
     right: "";
 
@@ -27,7 +27,7 @@ super::codes! {
 
     SAMENESS_UNDECIDED = "W0821" "sameness-undecided" Warning None,
     "whether an output is the same in both programs is not known",
-    "`rungc verify --same-as` has neither found a run in which the output differs nor a proof that there is none: the time was up (`--timeout`), or something that is not modelled is used differently in both.",
+    "`rungc verify --same-as` has neither found a run in which the output differs nor a proof that there is none: the effort was not enough (`--effort` allows more), the time was up (`--timeout`), or something that is not modelled is used differently in both.",
     wrong: "",
     right: "";
 
