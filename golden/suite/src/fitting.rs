@@ -15,6 +15,9 @@ const INDEXES: [(DeviceClass, u32); 4] = [
     (DeviceClass::V, 1),
 ];
 
+/// Maximum distance from a random constant to the next one that suits a rule: two high bytes.
+const SUITS_WITHIN: i64 = 0x200;
+
 /// Position for which operands are drawn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place<'p> {
@@ -156,8 +159,19 @@ impl Fitting<'_, '_> {
         }
     }
 
-    /// A constant within the limits.
+    /// A constant within the limits that suits the predicates of the rules, if one does.
     fn constant(&mut self, param: &Param) -> i64 {
+        let value = self.limited(param);
+        let suits = |value: &i64| {
+            let mut rules = param.rules.iter();
+            rules.all(|rule| !matches!(rule, Rule::Suits(suits, _) if !suits(*value)))
+        };
+        let next = (value..=value + SUITS_WITHIN).find(suits);
+        next.unwrap_or(value)
+    }
+
+    /// A constant within the limits.
+    fn limited(&mut self, param: &Param) -> i64 {
         let wide = self.place.form.wide;
         let of_wide_form = param.rules.iter().find_map(|rule| match *rule {
             Rule::WideLimits(min, max) if wide => Some(Limits::Between((min, max))),

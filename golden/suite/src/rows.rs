@@ -187,3 +187,44 @@ impl Occurring {
             .collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Occurring, share};
+    use crate::operands::in_any_rung;
+    use crate::rng::Rng;
+    use rungc_catalogue::{Inst, Rule};
+    use rungc_models::ModelId;
+
+    fn has_predicate(inst: &Inst) -> bool {
+        let variants = inst.variants.iter().filter_map(|variant| variant.params);
+        let mut params = variants.chain([inst.params]).flatten();
+        params.any(|param| param.rules.iter().any(|r| matches!(r, Rule::Suits(..))))
+    }
+
+    /// The differential test demands as much of all instructions, but only if it takes all models.
+    #[test]
+    fn constants_that_must_suit_a_predicate_occur() {
+        let mut occurring = Occurring::default();
+        for model in ModelId::ALL {
+            let mut rng = Rng::new(1 ^ (model as u64) << 32);
+            for candidate in in_any_rung(model) {
+                let inst = candidate.inst();
+                if has_predicate(inst) {
+                    let operand_goals = share(inst, (model, candidate.form()), 1);
+                    for line in candidate.draw_with(&mut rng, model, operand_goals) {
+                        occurring.add(model, &format!("LD M8000\n{line}\nEND\n"));
+                    }
+                }
+            }
+        }
+        let mut missing = occurring.missing_operands();
+        let asked = |missing: &String| {
+            let name = missing.split(' ').next().unwrap();
+            rungc_catalogue::find(name).is_some_and(|found| has_predicate(found.inst))
+        };
+        missing.retain(asked);
+        assert!(missing.is_empty(), "no rung has {missing:?}");
+        assert!(occurring.counts().0 > 5);
+    }
+}
