@@ -3,7 +3,9 @@
 //! Each batch of programs is compared on the interpreter, unoptimised, and on one way: the optimised interpreter,
 //! emitted Rust, emitted C by a compiler with an optimisation level or a sanitizer, or a simulated microcontroller.
 //! First each way has one small batch, so that a short campaign reaches all of them; then the way is next that has
-//! taken the least time so far.
+//! taken the least time so far. With `--proofs`, the prover is attacked instead ([`proofs`]).
+
+mod proofs;
 
 use crate::{Problem, root};
 use rungc_sim::engines::cortex_m::{CORTEX_M3, CORTEX_M4, missing};
@@ -11,11 +13,20 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Options of a campaign.
 #[derive(clap::Args, Debug)]
 pub struct Args {
+    /// Attack the prover: random properties of random programs.
+    #[arg(long)]
+    proofs: bool,
+    /// With --proofs: programs at a time.
+    #[arg(long, default_value_t = 1, requires = "proofs")]
+    jobs: usize,
+    /// With --proofs: begin no program after this many minutes.
+    #[arg(long, requires = "proofs")]
+    minutes: Option<u64>,
     /// Processor time to use in hours, or time by the clock where the system does not report it; each way gets at least
     /// one batch.
     #[arg(long, default_value_t = 1.0)]
@@ -26,9 +37,9 @@ pub struct Args {
     /// Stop earlier, once this many executions of instructions have been compared.
     #[arg(long)]
     instructions: Option<u64>,
-    /// Random programs in a batch; the first batches are smaller.
-    #[arg(long, default_value_t = 40)]
-    programs: u64,
+    /// Random programs, 1000 of them with --proofs; else those in a batch, 40, of which the first ones are smaller.
+    #[arg(long)]
+    programs: Option<u64>,
     /// Scans of each program after each of which all is compared.
     #[arg(long, default_value_t = 200)]
     scans: u64,
@@ -90,6 +101,15 @@ struct Tally {
 
 /// Runs a campaign; fails if anything differs, or if a way whose tools are there has compared nothing.
 pub fn run(args: &Args) -> Result<(), Problem> {
+    if args.proofs {
+        return proofs::run(proofs::Extent {
+            seed: args.seed,
+            programs: args.programs.unwrap_or(1000),
+            jobs: args.jobs,
+            time: args.minutes.map(|minutes| Duration::from_secs(60 * minutes)),
+            others: true,
+        });
+    }
     let folder = root().join("target/campaign");
     fs::create_dir_all(&folder)?;
     let mut tallies: Vec<Tally> = WAYS
@@ -114,9 +134,10 @@ pub fn run(args: &Args) -> Result<(), Problem> {
     let mut seed = args.seed;
     while let Some(next) = next(&tallies, args, &clock) {
         let tally = &mut tallies[next];
+        let programs = args.programs.unwrap_or(BATCH);
         let programs = match tally.batches {
-            0 => args.programs.min(FIRST_PROGRAMS),
-            _ => args.programs,
+            0 => programs.min(FIRST_PROGRAMS),
+            _ => programs,
         };
         let batch = Batch {
             programs,
@@ -142,6 +163,9 @@ pub fn run(args: &Args) -> Result<(), Problem> {
     println!("\n{}", table(&tallies, clock.seconds()));
     judge(&tallies)
 }
+
+/// Programs in a batch.
+const BATCH: u64 = 40;
 
 /// Programs in the first batch of each way.
 const FIRST_PROGRAMS: u64 = 10;

@@ -4,6 +4,7 @@ use crate::marks::Marks;
 use crate::{LowerOptions, lower, lower_marked};
 use rungc_analysis::check::ports::{Setup, setups};
 use rungc_analysis::resolve::resolve;
+use rungc_analysis::xref::{CrossReference, Use, UseKind};
 use rungc_analysis::{check, latches};
 use rungc_ir::layout::Wanted;
 use rungc_ir::node::Module;
@@ -11,6 +12,7 @@ use rungc_ir::passes::optimise;
 pub use rungc_ir::ranges::Bound;
 use rungc_models::{Fit, Model, ModelId, Plc, Variant};
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Program, codes};
+use std::collections::BTreeSet;
 
 /// Options of a compilation.
 #[derive(Clone, Debug, Default)]
@@ -86,6 +88,33 @@ pub fn compile(program: &Program, options: &CompileOptions) -> Compiled {
 /// The model that a program is compiled for.
 pub fn model(program: &Program, options: &CompileOptions) -> &'static Model {
     model_of(program, options).0
+}
+
+/// Index registers that may have any value when a scan begins, to be observed: the compiler is not to conclude where an
+/// index leads. Those that something else writes, and those that the program does not write.
+pub fn open_indexes(
+    program: &Program,
+    options: &CompileOptions,
+    is_written_externally: impl Fn((DeviceClass, u32)) -> bool,
+) -> Vec<(DeviceClass, u32)> {
+    let model = model(program, options);
+    let (resolved, _) = resolve(program, model);
+    let uses = CrossReference::new(&resolved).uses;
+    let is_write = |used: &&Use| matches!(used.kind, UseKind::Write | UseKind::Change);
+    let written: BTreeSet<_> = uses
+        .iter()
+        .filter(is_write)
+        .flat_map(|used| (used.first.number..used.end()).map(|number| (used.first.class, number)))
+        .collect();
+    let indexes = [DeviceClass::V, DeviceClass::Z]
+        .into_iter()
+        .flat_map(|class| {
+            let runs = model.runs(class).into_iter();
+            runs.flat_map(move |(first, last)| (first..=last).map(move |number| (class, number)))
+        });
+    indexes
+        .filter(|device| is_written_externally(*device) || !written.contains(device))
+        .collect()
 }
 
 /// The model that a program is for, and the diagnostics of its choice.

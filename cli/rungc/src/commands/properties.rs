@@ -12,7 +12,7 @@ use rungc_frontend::Read;
 use rungc_functions::Expanded;
 use rungc_ir::Module;
 use rungc_ir::passes::simplify;
-use rungc_lower::compile::{CompileOptions, compile};
+use rungc_lower::compile::{CompileOptions, compile, open_indexes};
 use rungc_models::Model;
 use rungc_models::runs::is_special;
 use rungc_project::property::{PropertyKind, Row};
@@ -438,7 +438,9 @@ pub fn module<'a>(
     let devices = conditions.into_iter().flat_map(Condition::devices);
     let mut compiling = subject.options();
     compiling.observe.extend(devices);
-    let indexes = open_indexes(&read.program, &compiling, external);
+    let indexes = open_indexes(&read.program, &compiling, |device| {
+        external.devices.contains_key(&device)
+    });
     compiling.observe.extend(indexes);
     let compiled = compile(
         &read.program,
@@ -454,33 +456,6 @@ pub fn module<'a>(
     };
     simplify(&mut module);
     Ok(Some(module))
-}
-
-/// Index registers that may have any value when a scan begins: the compiler is not to conclude where an index leads.
-/// Those that something else writes, and those that the program does not write.
-pub fn open_indexes(
-    program: &Program,
-    options: &CompileOptions,
-    external: &ExternalWrites,
-) -> Vec<(DeviceClass, u32)> {
-    let model = rungc_lower::compile::model(program, options);
-    let (resolved, _) = resolve(program, model);
-    let uses = CrossReference::new(&resolved).uses;
-    let is_write = |used: &&Use| matches!(used.kind, UseKind::Write | UseKind::Change);
-    let written: BTreeSet<_> = uses
-        .iter()
-        .filter(is_write)
-        .flat_map(|used| (used.first.number..used.end()).map(|number| (used.first.class, number)))
-        .collect();
-    let indexes = [DeviceClass::V, DeviceClass::Z]
-        .into_iter()
-        .flat_map(|class| {
-            let runs = model.runs(class).into_iter();
-            runs.flat_map(move |(first, last)| (first..=last).map(move |number| (class, number)))
-        });
-    indexes
-        .filter(|device| external.devices.contains_key(device) || !written.contains(device))
-        .collect()
 }
 
 /// Reports properties of devices that nothing drives.

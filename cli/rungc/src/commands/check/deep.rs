@@ -3,7 +3,7 @@
 mod causes;
 
 use crate::commands::counted;
-use crate::commands::properties::{ExternalWrites, open_indexes};
+use crate::commands::properties::ExternalWrites;
 use crate::commands::subject::Subject;
 use crate::commands::verify::report::{assumptions, changes};
 use causes::Contacts;
@@ -12,7 +12,7 @@ use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_ir::node::{AccessKind, Expr, ExprId};
 use rungc_ir::passes::simplify;
-use rungc_lower::compile::{CompileOptions, Compiled, compile};
+use rungc_lower::compile::{CompileOptions, Compiled, compile, open_indexes};
 use rungc_models::Model;
 use rungc_rt::CmpOp;
 use rungc_sim::Target;
@@ -49,7 +49,9 @@ pub fn findings(subject: &Subject, read: &Read, checked: &Compiled) -> Found {
         optimise: false,
         ..subject.options()
     };
-    let indexes = open_indexes(&read.program, &options, &external);
+    let indexes = open_indexes(&read.program, &options, |device| {
+        external.devices.contains_key(&device)
+    });
     options.observe.extend(indexes);
     let Some(mut module) = compile(&read.program, &options).module else {
         return found;
