@@ -386,6 +386,9 @@ fn oscillation(module: &Module, number: u32, trace: Trace) -> Option<Trace> {
         let mut run = Run::new(module, trace);
         let (mut before, mut changes) = (None, 0);
         for (n, scan) in trace.scans.iter().enumerate() {
+            if run.is_early(scan) {
+                return None;
+            }
             run.scan(scan)?;
             let on = run.machine.bit(Class::Y, number)?;
             let same_inputs = n > 0 && trace.scans[n - 1].set == scan.set;
@@ -399,7 +402,7 @@ fn oscillation(module: &Module, number: u32, trace: Trace) -> Option<Trace> {
         None
     };
     happens(&trace)?;
-    Some(plain(&happens, trace, &Limit::new(PROOF, None)))
+    Some(plain(&happens, FOREVER_MS, trace, &Limit::new(PROOF, None)))
 }
 
 /// An answer to whether something never happens.

@@ -422,6 +422,7 @@ impl<'a> Ways<'a> {
         let short = replay::shortened(&happens, found, &self.limit.share(4).part(PLAIN));
         Some(Verdict::Found(replay::plain(
             &happens,
+            self.world.scan_ms,
             short,
             &self.limit.part(PLAIN),
         )))
@@ -483,7 +484,7 @@ impl<'a> Hunt<'a> {
             self.spurious = Some(self.bounded.scans());
             return None;
         }
-        let plain = replay::plain(&happens, trace, &self.limit.part(PLAIN));
+        let plain = replay::plain(&happens, self.scan_ms, trace, &self.limit.part(PLAIN));
         Some(Verdict::Found(plain))
     }
 

@@ -86,6 +86,12 @@ impl<'m> Run<'m> {
         }
     }
 
+    /// Returns true if a scan begins before the program lets it: it asks for scans of constant length (M8039).
+    pub fn is_early(&self, scan: &Scan) -> bool {
+        let least = self.machine.constant_scan_ms().unwrap_or(0);
+        !self.first && !scan.restart && scan.ms < least.into()
+    }
+
     /// Executes a scan; the milliseconds since the one before, unless the program stops.
     pub fn scan(&mut self, scan: &Scan) -> Option<u32> {
         self.begin(scan);
@@ -125,6 +131,9 @@ pub fn replay(
     let mut run = Run::new(module, trace);
     let (mut watcher, mut monitor) = (Watcher::new(property), Monitor::new(assumed));
     for (n, scan) in trace.scans.iter().enumerate() {
+        if run.is_early(scan) {
+            return None;
+        }
         if scan.restart {
             (watcher, monitor) = (Watcher::new(property), Monitor::new(assumed));
         }
@@ -200,9 +209,14 @@ pub fn shortened(
 }
 
 /// The same run with what does not matter left out: inputs that stay off, changes that come later, times that are
-/// ordinary. `happens` runs one, and says after how many scans it does what it is about.
-/// When the limit is reached, the rest stays.
-pub fn plain(happens: &dyn Fn(&Trace) -> Option<usize>, mut trace: Trace, limit: &Limit) -> Trace {
+/// ordinary, but not above `most_ms` from one scan to the next. `happens` runs one, and says after how many scans it does
+/// what it is about. When the limit is reached, the rest stays.
+pub fn plain(
+    happens: &dyn Fn(&Trace) -> Option<usize>,
+    most_ms: u32,
+    mut trace: Trace,
+    limit: &Limit,
+) -> Trace {
     if let Some(scans) = happens(&trace) {
         trace.scans.truncate(scans);
     }
@@ -215,12 +229,13 @@ pub fn plain(happens: &dyn Fn(&Trace) -> Option<usize>, mut trace: Trace, limit:
     };
     /// A scan time that people expect.
     const USUAL_MS: u32 = 10;
+    let usual_ms = USUAL_MS.min(most_ms);
     attempt(&mut trace, &|trace| {
         trace
             .scans
             .iter_mut()
             .skip(1)
-            .for_each(|scan| scan.ms = USUAL_MS);
+            .for_each(|scan| scan.ms = usual_ms);
     });
     for key in trace.start.keys().copied().collect::<Vec<_>>() {
         attempt(&mut trace, &|trace| {
@@ -237,7 +252,7 @@ pub fn plain(happens: &dyn Fn(&Trace) -> Option<usize>, mut trace: Trace, limit:
         attempt(&mut trace, &|trace| trace.scans[scan].restart = false);
         attempt(&mut trace, &|trace| {
             if scan > 0 {
-                trace.scans[scan].ms = USUAL_MS;
+                trace.scans[scan].ms = usual_ms;
             }
         });
         for key in trace.scans[scan].set.keys().copied().collect::<Vec<_>>() {

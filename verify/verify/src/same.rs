@@ -158,6 +158,9 @@ impl Question for Differs<'_> {
     fn happens(&self, trace: &Trace) -> Option<usize> {
         let mut runs = self.modules.map(|module| Run::new(module, trace));
         for (n, scan) in trace.scans.iter().enumerate() {
+            if runs.iter().any(|run| run.is_early(scan)) {
+                return None;
+            }
             let [old, new] = &mut runs;
             if old.scan(scan).is_some() != new.scan(scan).is_some() {
                 return Some(n + 1);

@@ -11,6 +11,8 @@ mod minimise;
 mod planted;
 mod run;
 mod table;
+#[cfg(test)]
+mod tests;
 
 use crate::{Problem, root};
 use attack::{Outside, search};
@@ -46,10 +48,18 @@ pub struct Extent {
     pub time: Option<Duration>,
     /// Ask another model checker where it is installed.
     pub others: bool,
+    /// Verdicts are about runs with STOP, too.
+    pub stop: bool,
 }
 
 /// Time limit for a question.
 const QUESTION: Duration = Duration::from_millis(800);
+
+/// Of this many programs, one is compared with a program that was changed.
+const COMPARED: u64 = 3;
+
+/// Time limit for each output that is compared.
+const OUTPUT: Duration = Duration::from_millis(200);
 
 /// Properties of a program.
 const PROPERTIES: u32 = 3;
@@ -85,7 +95,9 @@ fn judge(results: &Results) -> Result<(), Problem> {
     let (planted, found) = results.calibration();
     match (results.wrong.len(), found * 10 >= planted * 8) {
         (0, true) => Ok(()),
-        (0, false) => Err(format!("only {found} of {planted} planted violations were found").into()),
+        (0, false) => {
+            Err(format!("only {found} of {planted} planted violations were found").into())
+        }
         (wrong, _) => Err(format!("{wrong} answers are wrong").into()),
     }
 }
@@ -103,7 +115,7 @@ fn all(extent: Extent) -> Results {
             if n >= extent.programs || is_late {
                 return;
             }
-            let results = examine(&pools, extent.seed + n, extent.others);
+            let results = examine(&pools, extent.seed + n, extent);
             let mut parts = parts.lock().unwrap_or_else(PoisonError::into_inner);
             parts.push((n, results));
         }
@@ -121,7 +133,7 @@ fn all(extent: Extent) -> Results {
 }
 
 /// Examines the program of a number.
-fn examine(pools: &Pools, seed: u64, others: bool) -> Results {
+fn examine(pools: &Pools, seed: u64, extent: Extent) -> Results {
     let mut results = Results::default();
     let Some(question) = question(pools, seed, QUESTION) else {
         results.rejected += 1;
@@ -131,13 +143,14 @@ fn examine(pools: &Pools, seed: u64, others: bool) -> Results {
     let mut examination = Examination {
         question,
         seed,
-        others: others && seed.is_multiple_of(8) && files::has_abc(),
+        stop: extent.stop,
+        others: extent.others && seed.is_multiple_of(8) && files::has_abc(),
         results,
     };
     for _ in 0..PROPERTIES {
         examination.property();
     }
-    if seed.is_multiple_of(2) {
+    if seed.is_multiple_of(COMPARED) {
         examination.same();
     }
     examination.planted();
@@ -148,12 +161,18 @@ fn examine(pools: &Pools, seed: u64, others: bool) -> Results {
 struct Examination {
     question: Question,
     seed: u64,
+    stop: bool,
     others: bool,
     results: Results,
 }
 
 /// A module with what may happen to it.
-fn outside(modules: &[&Module], encoders: &[&Encoder], options: &Options, values: &[i64]) -> Outside {
+fn outside(
+    modules: &[&Module],
+    encoders: &[&Encoder],
+    options: &Options,
+    values: &[i64],
+) -> Outside {
     let mut written = BTreeSet::new();
     let mut latched = BTreeSet::new();
     for (module, encoder) in modules.iter().zip(encoders) {
@@ -165,7 +184,9 @@ fn outside(modules: &[&Module], encoders: &[&Encoder], options: &Options, values
         let any = |key: &Key| device_of(*key).is_some() && encoder.initial(*key).is_none();
         latched.extend(keys.filter(any));
     }
-    let registers = modules.iter().filter_map(|module| module.model.constant_scan());
+    let registers = modules
+        .iter()
+        .filter_map(|module| module.model.constant_scan());
     let mut registers = registers.map(|asks| Key::Word(D, asks.register.number()));
     Outside {
         scan_register: registers.find(|register| written.contains(register)),
@@ -174,6 +195,7 @@ fn outside(modules: &[&Module], encoders: &[&Encoder], options: &Options, values
         values: values.to_vec(),
         scan_ms: options.world.scan_ms,
         power: !options.world.fresh,
+        stop: false,
         buffer: false,
         events: modules.iter().any(|module| module.takes_events()),
     }
@@ -201,6 +223,7 @@ impl Examination {
             }
             let mut outside = outside(&[&module], &[&encoder], options, &self.question.values);
             outside.buffer = has_buffer(&self.question);
+            outside.stop = self.stop;
             drop(encoder);
             let seed = self.seed_of();
             let goal = Goal::Event(&asked.property);
@@ -224,7 +247,8 @@ impl Examination {
         };
         let goal = Goal::Event(&asked.property);
         let seed = self.seed_of();
-        let attack = |goal, scans| search(&[module], goal, &options.assumed, outside, (seed, scans));
+        let attack =
+            |goal, scans| search(&[module], goal, &options.assumed, outside, (seed, scans));
         match &decision.verdict {
             Verdict::Proved if dead_end(module, &options).is_some() => counts.vacuous += 1,
             Verdict::Proved => {
@@ -249,13 +273,16 @@ impl Examination {
                 counts.scans += found.scans;
                 if let Some(run) = found.run {
                     counts.refuted += 1;
-                    let why = format!("no run of {scans} scans keeps the assumptions; this does:\n{run}");
+                    let why =
+                        format!("no run of {scans} scans keeps the assumptions; this does:\n{run}");
                     self.wrong(&asked.text, &why);
                 }
             }
             Verdict::Undecided(Why::Time { .. }) => counts.late += 1,
             Verdict::Undecided(Why::Vacuous { .. }) => counts.vacuous += 1,
-            Verdict::Undecided(Why::Spurious { .. } | Why::Engines { .. }) => counts.unmodelled += 1,
+            Verdict::Undecided(Why::Spurious { .. } | Why::Engines { .. }) => {
+                counts.unmodelled += 1
+            }
         }
         self.results.counts[asked.form].add(&counts);
         self.files(asked, module, (system, outside), &decision.verdict);
@@ -273,6 +300,7 @@ impl Examination {
         if files::is_exact(system) && !outside.events {
             let calm = Outside {
                 power: false,
+                stop: false,
                 ..outside.clone()
             };
             let seed = self.seed_of();
@@ -350,13 +378,16 @@ impl Examination {
         let Some(new) = (0..8).find_map(|_| minimise::changed(&old, &mut self.question.rng)) else {
             return;
         };
-        let options = self.question.options.clone();
+        let options = Options {
+            time: OUTPUT,
+            ..self.question.options.clone()
+        };
         let modules = [&old, &new].map(|written| written.module(&options, &[]));
         let [Some(old_module), Some(new_module)] = &modules else {
             return;
         };
-        let encoders = [old_module, new_module]
-            .map(|module| Encoder::scan(module, options.world.clone()));
+        let encoders =
+            [old_module, new_module].map(|module| Encoder::scan(module, options.world.clone()));
         let same = FORMS.len() - 1;
         let [of_old, of_new] = &encoders;
         if of_old.aig.nodes().len().max(of_new.aig.nodes().len()) > NODES / 2 {
@@ -364,9 +395,12 @@ impl Examination {
             return;
         }
         let pair = [old_module, new_module];
-        let outside = outside(&pair, &[of_old, of_new], &options, &self.question.values);
+        let mut outside = outside(&pair, &[of_old, of_new], &options, &self.question.values);
+        outside.stop = self.stop;
         let compared = compare(old_module, new_module, &options);
-        let is_vacuous = pair.iter().any(|module| dead_end(module, &options).is_some());
+        let is_vacuous = pair
+            .iter()
+            .any(|module| dead_end(module, &options).is_some());
         let mut counts = Counts::default();
         let mut proved = Vec::new();
         for output in &compared.outputs {
@@ -377,11 +411,19 @@ impl Examination {
                 Verdict::Found(trace) => {
                     counts.violated += 1;
                     let numbers = [output.number];
-                    let happens = replay(&pair, Goal::Differs(&numbers), &options.assumed, &run_of(trace));
+                    let happens = replay(
+                        &pair,
+                        Goal::Differs(&numbers),
+                        &options.assumed,
+                        &run_of(trace),
+                    );
                     match happens {
                         Some(_) => counts.replayed += 1,
                         None => {
-                            let text = format!("the run does not happen, in the new program:\n{}", new.text);
+                            let text = format!(
+                                "the run does not happen, in the new program:\n{}",
+                                new.text
+                            );
                             self.wrong(&format!("same, Y number {}", output.number), &text);
                         }
                     }
@@ -389,7 +431,9 @@ impl Examination {
                 Verdict::Undecided(Why::Time { .. }) => counts.late += 1,
                 Verdict::Undecided(Why::Contradiction { .. }) => counts.contradictory += 1,
                 Verdict::Undecided(Why::Vacuous { .. }) => counts.vacuous += 1,
-                Verdict::Undecided(Why::Spurious { .. } | Why::Engines { .. }) => counts.unmodelled += 1,
+                Verdict::Undecided(Why::Spurious { .. } | Why::Engines { .. }) => {
+                    counts.unmodelled += 1
+                }
             }
         }
         counts.proved = proved.len() as u64;
@@ -401,7 +445,10 @@ impl Examination {
             if let Some(run) = found.run {
                 counts.refuted += 1;
                 let run = minimise::shorter(&pair, goal, &options.assumed, run);
-                let text = format!("the same {proved:?}, but this run shows a difference:\n{run}\nnew:\n{}", new.text);
+                let text = format!(
+                    "the same {proved:?}, but this run shows a difference:\n{run}\nnew:\n{}",
+                    new.text
+                );
                 self.wrong("same", &text);
             }
         }
@@ -438,12 +485,16 @@ impl Examination {
 /// Returns true if a program names the buffer memory of special modules.
 fn has_buffer(question: &Question) -> bool {
     let mut words = question.written.text.split_whitespace();
-    words.any(|word| word.contains("\\G") || matches!(word.trim_start_matches('D'), "FROM" | "FROMP"))
+    words.any(|word| {
+        word.contains("\\G") || matches!(word.trim_start_matches('D'), "FROM" | "FROMP")
+    })
 }
 
 /// A run that the prover has found.
 fn run_of(trace: &Trace) -> Run {
-    let set = |set: &std::collections::BTreeMap<Key, i64>| set.iter().map(|(&key, &value)| (key, value)).collect();
+    let set = |set: &std::collections::BTreeMap<Key, i64>| {
+        set.iter().map(|(&key, &value)| (key, value)).collect()
+    };
     Run {
         start: set(&trace.start),
         steps: trace
@@ -476,13 +527,24 @@ fn confirmed(
         return Err(format!("{key:?} has a value at power-on\n{run}"));
     }
     let mut set = run.steps.iter().flat_map(|step| &step.set);
-    let is_outside = |key: &Key| matches!(key, Key::Buffer(..)) || outside.written.contains(key);
+    let is_outside = |key: &Key| {
+        matches!(key, Key::Buffer(..) | Key::Bit(X, _)) || outside.written.contains(key)
+    };
     if let Some((key, _)) = set.find(|(key, _)| !outside.events && !is_outside(key)) {
-        return Err(format!("{key:?} is set, which only the program writes\n{run}"));
+        return Err(format!(
+            "{key:?} is set, which only the program writes\n{run}"
+        ));
     }
-    let late = run.steps.iter().skip(1).find(|step| step.ms == 0 || step.ms > options.world.scan_ms);
+    let late = run
+        .steps
+        .iter()
+        .skip(1)
+        .find(|step| step.ms == 0 || step.ms > options.world.scan_ms);
     if let Some(step) = late {
-        return Err(format!("a scan begins {} ms after the one before\n{run}", step.ms));
+        return Err(format!(
+            "a scan begins {} ms after the one before\n{run}",
+            step.ms
+        ));
     }
     match replay(&[module], goal, &options.assumed, &run) {
         Some(after) if after == scans => Ok(()),

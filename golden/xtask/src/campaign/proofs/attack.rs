@@ -27,6 +27,8 @@ pub struct Outside {
     pub scan_ms: u32,
     /// True if power may go off and on: latched memory begins with any value.
     pub power: bool,
+    /// True if the PLC may go to STOP and back to RUN.
+    pub stop: bool,
     /// True if the programs read the buffer memory of module 0.
     pub buffer: bool,
     /// True if input edges, time and interrupts matter between two scans.
@@ -53,16 +55,15 @@ pub fn search(
     (seed, scans): (u64, u64),
 ) -> Found {
     let mut attack = Attack {
-        rig: Rig::new(modules, goal, assumed, &[]),
+        rig: Rig::new(modules, goal, assumed),
         watched: watched(modules),
-        modules,
         goal,
-        assumed,
         outside,
         rng: Rng::new(seed),
         stretches: Vec::new(),
         places: Vec::new(),
         features: BTreeMap::new(),
+        last: Vec::new(),
         closest: Vec::new(),
     };
     let mut found = Found::default();
@@ -99,9 +100,7 @@ struct Feature {
 }
 
 struct Attack<'m, 'c> {
-    modules: &'c [&'m Module],
     goal: Goal<'c>,
-    assumed: &'c [Condition],
     outside: &'c Outside,
     rig: Rig<'m, 'c>,
     watched: Vec<Key>,
@@ -109,6 +108,8 @@ struct Attack<'m, 'c> {
     stretches: Vec<Stretch>,
     places: Vec<Place<'c>>,
     features: BTreeMap<(usize, i64), Feature>,
+    /// Last value of each of the watched devices of each program: what does not change is no news.
+    last: Vec<i64>,
     /// The closest places with their distances, the closest first.
     closest: Vec<(f64, usize)>,
 }
@@ -122,8 +123,11 @@ const CLOSEST: usize = 6;
 /// Devices of each area that features look at.
 const WATCHED: u32 = 48;
 
-/// Scans between two changes of something outside, as powers of two; beyond the last, it stays.
-const HABITS: [u32; 6] = [0, 1, 2, 3, 6, 20];
+/// Scans between two changes of something outside, as powers of two.
+const HABITS: [u32; 6] = [0, 1, 2, 3, 6, STAYS];
+
+/// Habit of what does not change.
+const STAYS: u32 = 20;
 
 impl Attack<'_, '_> {
     /// Executes some scans; the run if it happens in one of them, and the scans so far.
@@ -131,10 +135,15 @@ impl Attack<'_, '_> {
         let mut levels = self.begin();
         let this = self.stretches.len() - 1;
         let written = self.outside.written.len();
-        let habits: Vec<u32> = (0..written)
-            .map(|_| self.rng.pick(&HABITS).unwrap_or(0))
-            .collect();
-        let times = [1, 10, 10, 100, self.outside.scan_ms, 0];
+        // Often little changes, so that times pass and sequences stay in order.
+        let quiet = self.rng.pick(&[0, 50, 90]).unwrap_or(0);
+        let mut habit = |_| match self.rng.percent(quiet) {
+            true => STAYS,
+            false => self.rng.pick(&HABITS).unwrap_or(STAYS),
+        };
+        let habits: Vec<u32> = (0..written).map(&mut habit).collect();
+        let most = self.outside.scan_ms;
+        let times = [1, 10, 10, 100, most, most, 0];
         let time = self.rng.pick(&times).unwrap_or(10);
         let is_first = self.stretches[this].from.is_none();
         let length = 1u64 << (1 + self.rng.below(7));
@@ -165,7 +174,7 @@ impl Attack<'_, '_> {
         };
         let Some(place) = from else {
             let start = self.start();
-            self.rig = Rig::new(self.modules, self.goal, self.assumed, &start);
+            self.rig.begin(&start);
             self.stretches.push(Stretch {
                 from: None,
                 start,
@@ -206,7 +215,10 @@ impl Attack<'_, '_> {
         let weight = |feature: &Feature| {
             let place = feature.place?;
             let taken = self.places[place].taken;
-            Some((place, 1.0 / (f64::from(1 + taken) * f64::from(feature.seen))))
+            Some((
+                place,
+                1.0 / (f64::from(1 + taken) * f64::from(feature.seen)),
+            ))
         };
         let weights: Vec<(usize, f64)> = self.features.values().filter_map(weight).collect();
         let all: f64 = weights.iter().map(|(_, weight)| weight).sum();
@@ -234,19 +246,14 @@ impl Attack<'_, '_> {
     }
 
     /// The next scan; `None` if the program asks for a longer time than there is.
-    fn step(
-        &mut self,
-        levels: &mut [i64],
-        habits: &[u32],
-        time: u32,
-        first: bool,
-    ) -> Option<Step> {
+    fn step(&mut self, levels: &mut [i64], habits: &[u32], time: u32, first: bool) -> Option<Step> {
         let power = self.outside.power && !first && self.rng.below(400) == 0;
+        let stop = self.outside.stop && !first && !power && self.rng.below(100) == 0;
         let mut set = Vec::new();
         let mut edges = Vec::new();
         for (n, &key) in self.outside.written.iter().enumerate() {
-            let seldom = 1u32 << habits[n].min(30);
-            if first || habits[n] < 20 && self.rng.below(seldom) == 0 {
+            let seldom = 1 << habits[n];
+            if first || habits[n] < STAYS && self.rng.below(seldom) == 0 {
                 let value = match (key, first) {
                     (Key::Bit(..), false) => 1 - levels[n],
                     _ => self.value(key),
@@ -265,10 +272,12 @@ impl Attack<'_, '_> {
             set.push((Key::Buffer(0, address), self.rng.value(16)));
         }
         let most = self.outside.scan_ms;
-        let set_length = set.iter().find(|(key, _)| Some(*key) == self.outside.scan_register);
+        let set_length = set
+            .iter()
+            .find(|(key, _)| Some(*key) == self.outside.scan_register);
         let set_length = set_length.map_or(0, |(_, ms)| u32::try_from(*ms).unwrap_or(0));
         let least = self.rig.constant_scan_ms().max(set_length).max(1);
-        if least > most && !first && !power {
+        if least > most && !first && !power && !stop {
             return None;
         }
         let ms = match (time, first || power) {
@@ -276,13 +285,18 @@ impl Attack<'_, '_> {
             (0, _) => 1 + self.rng.below(most),
             (time, _) => time,
         };
-        let ms = if first || power { 0 } else { ms.clamp(least, most) };
+        let ms = if first || power {
+            0
+        } else {
+            ms.clamp(least, most)
+        };
         let between = match self.outside.events && !first && !power {
             true => self.events(ms, edges),
             false => Vec::new(),
         };
         Some(Step {
             power,
+            stop,
             between,
             set,
             ms,
@@ -316,9 +330,15 @@ impl Attack<'_, '_> {
         let mut is_new = false;
         let next = self.places.len();
         let count = self.watched.len();
+        self.last.resize(count * self.rig.plants.len(), i64::MIN);
         for n in 0..count * self.rig.plants.len() {
             let plant = &self.rig.plants[n / count];
-            let value = alike(value_of(&plant.machine, self.watched[n % count]));
+            let value = value_of(&plant.machine, self.watched[n % count]);
+            let is_news = std::mem::replace(&mut self.last[n], value) != value;
+            if !is_news {
+                continue;
+            }
+            let value = alike(value);
             let feature = self.features.entry((n, value));
             let feature = feature.or_insert_with(|| {
                 is_new = true;
@@ -383,9 +403,12 @@ fn watched(modules: &[&Module]) -> Vec<Key> {
             match area.class {
                 X => {}
                 Y | M | S => keys.push(Key::Bit(area.class, number)),
-                T => keys.extend([TimerPart::Done, TimerPart::Value].map(|p| Key::Timer(number, p))),
-                C => keys
-                    .extend([CounterPart::Done, CounterPart::Value].map(|p| Key::Counter(number, p))),
+                T => {
+                    keys.extend([TimerPart::Done, TimerPart::Value].map(|p| Key::Timer(number, p)))
+                }
+                C => keys.extend(
+                    [CounterPart::Done, CounterPart::Value].map(|p| Key::Counter(number, p)),
+                ),
                 _ => keys.push(Key::Word(area.class, number)),
             }
         }
@@ -398,12 +421,12 @@ fn watched(modules: &[&Module]) -> Vec<Key> {
 /// Value of a piece of memory; 0 if the program does not store it.
 pub fn value_of(machine: &impl Plc, key: Key) -> i64 {
     let found = match key {
-        Key::Bit(class, number) => {
-            rt_class(class).and_then(|class| machine.bit(class, number)).map(i64::from)
-        }
-        Key::Word(class, number) => {
-            rt_class(class).and_then(|class| machine.word(class, number)).map(i64::from)
-        }
+        Key::Bit(class, number) => rt_class(class)
+            .and_then(|class| machine.bit(class, number))
+            .map(i64::from),
+        Key::Word(class, number) => rt_class(class)
+            .and_then(|class| machine.word(class, number))
+            .map(i64::from),
         Key::Timer(number, TimerPart::Done) => machine.bit(Class::T, number).map(i64::from),
         Key::Timer(number, _) => machine.word(Class::T, number).map(i64::from),
         Key::Counter(number, CounterPart::Done) => machine.bit(Class::C, number).map(i64::from),

@@ -22,7 +22,8 @@ impl Pools {
     pub fn new() -> Self {
         let pool = |model| {
             let all = candidates(model);
-            let expanded = |c: &&Candidate| !matches!(c.inst().lower_on_model(model), Lower::Call(_));
+            let expanded =
+                |c: &&Candidate| !matches!(c.inst().lower_on_model(model), Lower::Call(_));
             let exact = all.iter().filter(expanded).cloned().collect();
             (model, all, exact)
         };
@@ -50,7 +51,9 @@ impl Written {
             parameters.latched = Some(self.latched.clone());
         }
         let conditions = property.iter().flat_map(|property| property.conditions());
-        let observe = conditions.chain(&options.assumed).flat_map(Condition::devices);
+        let observe = conditions
+            .chain(&options.assumed)
+            .flat_map(Condition::devices);
         let mut compiling = CompileOptions {
             model: Some(self.model),
             observe: observe.collect(),
@@ -61,7 +64,9 @@ impl Written {
         let indexes = open_indexes(&read.program, &compiling, |device| free.contains(&device));
         compiling.observe.extend(indexes);
         let has_errors = read.diagnostics.has_errors();
-        let mut module = compile(&read.program, &compiling).module.filter(|_| !has_errors)?;
+        let mut module = compile(&read.program, &compiling)
+            .module
+            .filter(|_| !has_errors)?;
         simplify(&mut module);
         Some(module)
     }
@@ -234,7 +239,8 @@ impl Question {
     /// Lets something else write some devices of the program, as `--free` and `[hmi] writes` do.
     fn free(&mut self) {
         use DeviceClass::{C, D, M, R, S, T, V, Z};
-        let wanted = |(class, _): &(DeviceClass, u32)| matches!(class, M | S | D | R | T | C | V | Z);
+        let wanted =
+            |(class, _): &(DeviceClass, u32)| matches!(class, M | S | D | R | T | C | V | Z);
         let named: Vec<_> = self.devices.iter().copied().filter(wanted).collect();
         for _ in 0..1 + self.rng.below(3) {
             self.options.world.free.extend(self.rng.pick(&named));
@@ -330,7 +336,10 @@ impl Question {
 
     /// A device of the program of one of these classes, or another one.
     fn device(&mut self, classes: &[DeviceClass]) -> (DeviceClass, u32) {
-        let known = self.devices.iter().filter(|(class, _)| classes.contains(class));
+        let known = self
+            .devices
+            .iter()
+            .filter(|(class, _)| classes.contains(class));
         let known: Vec<_> = known.copied().collect();
         let class = self.rng.pick(classes).unwrap_or(DeviceClass::M);
         let any = (class, self.rng.below(8));

@@ -38,7 +38,11 @@ impl Logic {
         }
         let kept = self.constraints.iter().all(|&holds| self.of(holds));
         let bad = self.of(self.bad);
-        let next: Vec<bool> = self.states.iter().map(|(_, next, _)| self.of(*next)).collect();
+        let next: Vec<bool> = self
+            .states
+            .iter()
+            .map(|(_, next, _)| self.of(*next))
+            .collect();
         for ((at, ..), on) in self.states.iter().zip(next) {
             self.values[*at] = on;
         }
@@ -137,8 +141,12 @@ fn read_btor2(text: &str) -> Option<Logic> {
                 logic.states[*index.get(&number(3)?)?].2 = Some(value);
             }
             "next" => logic.states[*index.get(&number(3)?)?].1 = (number(4)?, false),
-            "and" => logic.gates.push((id, (number(3)?, false), (number(4)?, false))),
-            "not" => logic.gates.push((id, (number(3)?, true), (number(3)?, true))),
+            "and" => logic
+                .gates
+                .push((id, (number(3)?, false), (number(4)?, false))),
+            "not" => logic
+                .gates
+                .push((id, (number(3)?, true), (number(3)?, true))),
             "constraint" => logic.constraints.push((number(2)?, false)),
             "bad" => logic.bad = (number(2)?, false),
             _ => return None,
@@ -154,7 +162,11 @@ fn inputs(system: &System) -> Vec<Option<Input>> {
         .iter()
         .map(|&(lit, input)| (lit.node(), input))
         .collect();
-    let states: Vec<usize> = system.latches.iter().map(|latch| latch.now.node()).collect();
+    let states: Vec<usize> = system
+        .latches
+        .iter()
+        .map(|latch| latch.now.node())
+        .collect();
     let nodes = system.aig.nodes().iter().enumerate();
     nodes
         .filter(|(node, what)| matches!(what, Node::Input(_)) && !states.contains(node))
@@ -190,14 +202,21 @@ pub fn evaluate(
     let (Some(mut aiger), Some(mut btor2)) = (aiger, btor2) else {
         return Err("a file cannot be read".to_string());
     };
-    let mut rig = Rig::new(&[module], goal, assumed, &run.start);
+    let modules = [module];
+    let mut rig = Rig::new(&modules, goal, assumed);
+    rig.begin(&run.start);
     let begin: Vec<bool> = system
         .latches
         .iter()
         .map(|latch| value_of(&rig.plants[0].machine, latch.key) >> latch.bit & 1 == 1)
         .collect();
     aiger.begin(&begin);
-    btor2.begin(&states(system).into_iter().map(|n| begin[n]).collect::<Vec<_>>());
+    btor2.begin(
+        &states(system)
+            .into_iter()
+            .map(|n| begin[n])
+            .collect::<Vec<_>>(),
+    );
     let named = inputs(system);
     let mut all_kept = true;
     for (n, step) in run.steps.iter().enumerate() {
@@ -232,7 +251,11 @@ pub fn evaluate(
             return Err(format!(
                 "after scan {} it is {expected} on the interpreter, {bad} in AIGER, {other} in BTOR2{}",
                 n + 1,
-                if all_kept { "" } else { ", a constraint is broken" }
+                if all_kept {
+                    ""
+                } else {
+                    ", a constraint is broken"
+                }
             ));
         }
         if state != State::Lives {
@@ -260,7 +283,10 @@ pub fn asked_abc(system: &System, seconds: u32) -> Option<bool> {
         .output()
         .ok()?;
     let text = String::from_utf8_lossy(&output.stdout);
-    match (text.contains("Property proved"), text.contains("was asserted in frame")) {
+    match (
+        text.contains("Property proved"),
+        text.contains("was asserted in frame"),
+    ) {
         (true, false) => Some(false),
         (false, true) => Some(true),
         _ => None,

@@ -109,10 +109,17 @@ pub fn shorter(modules: &[&Module], goal: Goal, assumed: &[Condition], mut run: 
             run.start.remove(n);
         });
     }
-    let keys: Vec<_> = run.steps.iter().flat_map(|step| &step.set).map(|(key, _)| *key).collect();
+    let keys: Vec<_> = run
+        .steps
+        .iter()
+        .flat_map(|step| &step.set)
+        .map(|(key, _)| *key)
+        .collect();
     for key in std::collections::BTreeSet::from_iter(keys) {
         attempt(&mut run, &|run| {
-            run.steps.iter_mut().for_each(|step| step.set.retain(|(of, _)| *of != key));
+            run.steps
+                .iter_mut()
+                .for_each(|step| step.set.retain(|(of, _)| *of != key));
         });
     }
     for n in 0..run.steps.len() {
@@ -124,6 +131,7 @@ pub fn shorter(modules: &[&Module], goal: Goal, assumed: &[Condition], mut run: 
         attempt(&mut run, &|run| step(run, &|step| step.between.clear()));
         attempt(&mut run, &|run| step(run, &|step| step.scan_us = 0));
         attempt(&mut run, &|run| step(run, &|step| step.power = false));
+        attempt(&mut run, &|run| step(run, &|step| step.stop = false));
     }
     run
 }

@@ -128,7 +128,11 @@ fn code(rng: &mut Rng, inputs: &[u32]) -> (String, Vec<Press>) {
     for (stage, &button) in code.iter().enumerate().rev() {
         let (from, to) = (320 + stage, 321 + stage);
         let pressed = 300 + button;
-        let from = if stage == 0 { "M8000".to_string() } else { format!("M{from}") };
+        let from = if stage == 0 {
+            "M8000".to_string()
+        } else {
+            format!("M{from}")
+        };
         rungs.push_str(&format!("LD M{pressed}\nAND {from}\nSET M{to}\n"));
         if stage > 0 {
             rungs.push_str(&format!("LD M{to}\nRST {from}\n"));
@@ -151,9 +155,8 @@ fn code(rng: &mut Rng, inputs: &[u32]) -> (String, Vec<Press>) {
 fn held(rng: &mut Rng, inputs: &[u32]) -> (String, Vec<Press>) {
     let [held, then] = [inputs[0], inputs[1]];
     let tenths = 10 + rng.below(90);
-    let rungs = format!(
-        "LD X{held:03o}\nOUT T30 K{tenths}\nLD T30\nANDP X{then:03o}\nOUT {HIDDEN}\n"
-    );
+    let rungs =
+        format!("LD X{held:03o}\nOUT T30 K{tenths}\nLD T30\nANDP X{then:03o}\nOUT {HIDDEN}\n");
     let scans = tenths * 100 / SCAN_MS + 3;
     (rungs, vec![(vec![held], scans), (vec![held, then], 1)])
 }

@@ -2,9 +2,12 @@
 
 use rungc_interp::{Machine, Saved, rt_class};
 use rungc_ir::Module;
+use rungc_ir::node::{Action, Stmt};
+use rungc_ir::walk::statements;
 use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
 use rungc_sim::property::{Condition, Property, Watcher};
 use rungc_verify::model::{CounterPart, Key, TimerPart};
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// Events of one scan.
@@ -12,6 +15,8 @@ use std::fmt;
 pub struct Step {
     /// Power goes off and on first.
     pub power: bool,
+    /// The PLC goes to STOP and back to RUN first.
+    pub stop: bool,
     /// Events between the scan before and this one.
     pub between: Vec<Between>,
     /// Devices that something other than the program sets before the scan.
@@ -46,16 +51,22 @@ impl fmt::Display for Run {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "begins with {:?}", self.start)?;
         let mut now = 0;
+        let mut known = BTreeMap::new();
         for (n, step) in self.steps.iter().enumerate() {
             now = if step.power { 0 } else { now + step.ms };
             write!(f, "scan {} at {now} ms", n + 1)?;
             if step.power {
                 write!(f, ", after power off and on")?;
             }
+            if step.stop {
+                write!(f, ", after STOP and RUN")?;
+            }
             if !step.between.is_empty() {
                 write!(f, ", after {:?}", step.between)?;
             }
-            writeln!(f, ", scan time {} us: {:?}", step.scan_us, step.set)?;
+            let mut set = step.set.clone();
+            set.retain(|(key, value)| known.insert(*key, *value).unwrap_or(0) != *value);
+            writeln!(f, ", scan time {} us: {set:?}", step.scan_us)?;
         }
         Ok(())
     }
@@ -87,9 +98,27 @@ pub enum State {
 pub struct Plant<'m> {
     /// The PLC.
     pub machine: Machine<'m>,
+    at_first: Saved,
     hal: VirtualHal,
+    /// True if the hardware around the PLC remembers something.
+    has_hardware: bool,
     now_ms: u32,
     first: bool,
+}
+
+/// Returns true if a program uses the buffer memory of modules, ports or pulses.
+fn has_hardware(module: &Module) -> bool {
+    let mut uses_hal = module.has_ports() || module.sends_pulses() || module.takes_events();
+    for function in &module.functions {
+        statements(&function.body, &mut |stmt| {
+            uses_hal |= match stmt {
+                Stmt::Do(Action::Call(call)) => call.function.needs().hal,
+                Stmt::Do(action) => matches!(action, Action::Fetch(_) | Action::Send(_)),
+                _ => false,
+            };
+        });
+    }
+    uses_hal
 }
 
 /// Gives a piece of memory its value.
@@ -115,18 +144,28 @@ fn set(machine: &mut Machine, hal: &mut VirtualHal, key: Key, value: i64) {
 }
 
 impl<'m> Plant<'m> {
-    fn new(module: &'m Module, start: &[(Key, i64)]) -> Self {
-        let mut machine = Machine::new(module);
-        let mut hal = VirtualHal::new();
-        for &(key, value) in start {
-            set(&mut machine, &mut hal, key, value);
-        }
+    fn new(module: &'m Module) -> Self {
+        let machine = Machine::new(module);
         Plant {
+            at_first: machine.save(),
             machine,
-            hal,
+            hal: VirtualHal::new(),
+            has_hardware: has_hardware(module),
             now_ms: 0,
             first: true,
         }
+    }
+
+    /// Goes to where it was at the first power-on, with these values in latched memory.
+    fn begin(&mut self, start: &[(Key, i64)]) {
+        self.machine.restore(&self.at_first);
+        if self.has_hardware {
+            self.hal = VirtualHal::new();
+        }
+        for &(key, value) in start {
+            set(&mut self.machine, &mut self.hal, key, value);
+        }
+        (self.now_ms, self.first) = (0, true);
     }
 
     /// Executes a scan; the milliseconds since the one before, unless the PLC stops.
@@ -136,11 +175,16 @@ impl<'m> Plant<'m> {
             self.hal.restart();
             (self.now_ms, self.first) = (0, true);
         }
+        if step.stop {
+            self.machine.set_running(false);
+            self.machine.scan(&mut self.hal, self.now_ms, 0);
+            self.machine.set_running(true);
+            self.first = true;
+        }
         for &event in &step.between {
             match event {
                 Between::Tick(ms) => {
                     let now_ms = self.now_ms.wrapping_add(ms);
-                    self.hal.advance_to(now_ms);
                     self.machine.tick(&mut self.hal, now_ms);
                 }
                 Between::Edge(number, level) => {
@@ -155,9 +199,7 @@ impl<'m> Plant<'m> {
         if !step.power {
             self.now_ms = self.now_ms.wrapping_add(step.ms);
         }
-        self.hal.advance_to(self.now_ms);
-        self.machine
-            .scan(&mut self.hal, self.now_ms, step.scan_us);
+        self.machine.scan(&mut self.hal, self.now_ms, step.scan_us);
         let stops = self.machine.last_error().stop != Stop::No || !self.machine.sys().running;
         let elapsed = match std::mem::take(&mut self.first) {
             true => 0,
@@ -180,24 +222,16 @@ pub struct Rig<'m, 'c> {
 /// State of a [`Rig`] at one moment.
 #[derive(Clone)]
 pub struct Moment<'c> {
-    plants: Vec<(Saved, VirtualHal, u32, bool)>,
+    plants: Vec<(Saved, Option<Box<VirtualHal>>, u32, bool)>,
     watcher: Option<Watcher<'c>>,
     scans: usize,
 }
 
 impl<'m, 'c> Rig<'m, 'c> {
-    /// At power-on, with these values in latched memory.
-    pub fn new(
-        modules: &[&'m Module],
-        goal: Goal<'c>,
-        assumed: &'c [Condition],
-        start: &[(Key, i64)],
-    ) -> Self {
+    /// At the first power-on.
+    pub fn new(modules: &[&'m Module], goal: Goal<'c>, assumed: &'c [Condition]) -> Self {
         Rig {
-            plants: modules
-                .iter()
-                .map(|module| Plant::new(module, start))
-                .collect(),
+            plants: modules.iter().map(|module| Plant::new(module)).collect(),
             goal,
             assumed,
             watcher: watcher(goal),
@@ -205,15 +239,25 @@ impl<'m, 'c> Rig<'m, 'c> {
         }
     }
 
+    /// Begins anew, with these values in latched memory.
+    pub fn begin(&mut self, start: &[(Key, i64)]) {
+        self.plants.iter_mut().for_each(|plant| plant.begin(start));
+        self.watcher = watcher(self.goal);
+        self.scans = 0;
+    }
+
     /// The most milliseconds that a program asks for from this scan to the next.
     pub fn constant_scan_ms(&self) -> u32 {
-        let asked = self.plants.iter().filter_map(|plant| plant.machine.constant_scan_ms());
+        let asked = self
+            .plants
+            .iter()
+            .filter_map(|plant| plant.machine.constant_scan_ms());
         asked.max().unwrap_or(0).into()
     }
 
     /// Executes a scan of each.
     pub fn step(&mut self, step: &Step) -> State {
-        if step.power {
+        if step.power || step.stop {
             self.watcher = watcher(self.goal);
             self.scans = 0;
         }
@@ -256,7 +300,10 @@ impl<'m, 'c> Rig<'m, 'c> {
         let plants = self.plants.iter();
         Moment {
             plants: plants
-                .map(|p| (p.machine.save(), p.hal.clone(), p.now_ms, p.first))
+                .map(|p| {
+                    let hal = p.has_hardware.then(|| Box::new(p.hal.clone()));
+                    (p.machine.save(), hal, p.now_ms, p.first)
+                })
                 .collect(),
             watcher: self.watcher.clone(),
             scans: self.scans,
@@ -267,7 +314,9 @@ impl<'m, 'c> Rig<'m, 'c> {
     pub fn restore(&mut self, moment: &Moment<'c>) {
         for (plant, (saved, hal, now_ms, first)) in self.plants.iter_mut().zip(&moment.plants) {
             plant.machine.restore(saved);
-            plant.hal = hal.clone();
+            if let Some(hal) = hal {
+                plant.hal.clone_from(hal);
+            }
             (plant.now_ms, plant.first) = (*now_ms, *first);
         }
         self.watcher = moment.watcher.clone();
@@ -284,15 +333,11 @@ fn watcher(goal: Goal) -> Option<Watcher> {
 
 /// Executes a run from power-on: after how many of its scans what is searched for has happened. `None`: it does not, or
 /// the run is over before, or a scan comes earlier than the program asks for.
-pub fn replay(
-    modules: &[&Module],
-    goal: Goal,
-    assumed: &[Condition],
-    run: &Run,
-) -> Option<usize> {
-    let mut rig = Rig::new(modules, goal, assumed, &run.start);
+pub fn replay(modules: &[&Module], goal: Goal, assumed: &[Condition], run: &Run) -> Option<usize> {
+    let mut rig = Rig::new(modules, goal, assumed);
+    rig.begin(&run.start);
     for (n, step) in run.steps.iter().enumerate() {
-        if n > 0 && !step.power && step.ms < rig.constant_scan_ms() {
+        if n > 0 && !step.power && !step.stop && step.ms < rig.constant_scan_ms() {
             return None;
         }
         match rig.step(step) {
