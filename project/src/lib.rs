@@ -75,6 +75,8 @@ pub struct Project {
     pub properties: Vec<property::Row>,
     /// `[[property]]` with `use` or `matrix`: several properties by one row.
     pub uses: Vec<property::Use>,
+    /// The requirements that these name, each once, and those that have no property, in the order of the file.
+    pub requirements: Vec<property::Requirement>,
     /// `[verify]`: what is supposed of the machine around it.
     pub verify: property::Verify,
     /// `[latched]`: devices that keep their value over power-off, in place of those of the model for each class that is

@@ -3,11 +3,26 @@
 use crate::{Named, Range};
 use rungc_syntax::Span;
 
+/// A requirement on a program, from the sheet of whoever asks for the machine.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Requirement {
+    /// Identifier: properties and test cases name it.
+    pub id: String,
+    /// Text of the sheet; empty if the settings do not have it.
+    pub text: String,
+    /// Place in the sheet, such as a document and a section; empty if the settings do not have it.
+    pub source: String,
+    /// Position in the file.
+    pub span: Span,
+}
+
 /// A property. Conditions are as written; what they mean is the caller's to know.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Row {
     /// Name, if it has one.
     pub name: Option<String>,
+    /// Identifier of the requirement that it belongs to, one of [`crate::Project::requirements`].
+    pub requirement: Option<String>,
     /// The property.
     pub kind: PropertyKind,
     /// Position in the file.
@@ -48,6 +63,8 @@ pub enum PropertyKind {
 pub struct Use {
     /// Name, if it has one.
     pub name: Option<String>,
+    /// Identifier of the requirement that its properties belong to, one of [`crate::Project::requirements`].
+    pub requirement: Option<String>,
     /// Source of the properties.
     pub source: UseSource,
     /// Position in the file.

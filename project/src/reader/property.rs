@@ -1,9 +1,9 @@
 //! `[[property]]` and `[verify]`.
 
 use super::{Reader, Value, listed, span};
-use crate::property::{Parameter, PropertyKind, Row, Use, UseSource};
+use crate::property::{Parameter, PropertyKind, Requirement, Row, Use, UseSource};
 use crate::{Named, Project};
-use rungc_syntax::Span;
+use rungc_syntax::{Span, text};
 use toml::de::{DeTable, DeValue};
 
 /// The table of which each entry is a property.
@@ -20,17 +20,32 @@ const KINDS: [(&str, &[&str]); 5] = [
 
 /// The keys of rows that stand for several properties.
 const USES: [&str; 2] = ["use", "matrix"];
+/// The keys of every property: its name, and those of the requirement that it belongs to.
+const COMMON: [&str; 4] = ["name", "id", "text", "source"];
 
 impl Reader {
     pub(super) fn properties(&mut self, at: Span, value: &Value<'_>, project: &mut Project) {
         for (at, table) in self.rows(PROPERTY, at, value) {
-            if USES.iter().any(|key| table.contains_key(*key)) {
-                let several = self.several(at, table);
-                project.uses.extend(several);
+            let id = self.requirement(at, table, &mut project.requirements);
+            if is_requirement(table) {
+                self.known(PROPERTY, table, &COMMON);
                 continue;
             }
-            let row = self.property(at, table);
-            project.properties.extend(row);
+            if USES.iter().any(|key| table.contains_key(*key)) {
+                if let Some(several) = self.several(at, table) {
+                    project.uses.push(Use {
+                        requirement: id,
+                        ..several
+                    });
+                }
+                continue;
+            }
+            if let Some(row) = self.property(at, table) {
+                project.properties.push(Row {
+                    requirement: id,
+                    ..row
+                });
+            }
         }
     }
 
@@ -38,7 +53,7 @@ impl Reader {
     fn several(&mut self, at: Span, table: &DeTable<'_>) -> Option<Use> {
         let name = self.get(table, "name").map(|name| name.text);
         let source = if table.contains_key("matrix") {
-            self.known(PROPERTY, table, &["name", "matrix"]);
+            self.known(PROPERTY, table, &[&COMMON[..], &["matrix"]].concat());
             UseSource::Matrix(self.get(table, "matrix")?)
         } else {
             UseSource::Function {
@@ -47,7 +62,12 @@ impl Reader {
             }
         };
         let span = at;
-        Some(Use { name, source, span })
+        Some(Use {
+            name,
+            requirement: None,
+            source,
+            span,
+        })
     }
 
     /// The keys of a row that are a function's own.
@@ -55,7 +75,7 @@ impl Reader {
         let mut found = Vec::new();
         for (key, value) in table {
             let word = key.get_ref().as_ref();
-            if ["name", "use"].contains(&word) {
+            if word == "use" || COMMON.contains(&word) {
                 continue;
             }
             let values = match value.get_ref() {
@@ -71,6 +91,58 @@ impl Reader {
         found
     }
 
+    /// Takes notice of the requirement of a row; its identifier. Rows with the same one describe one requirement.
+    fn requirement(
+        &mut self,
+        at: Span,
+        table: &DeTable<'_>,
+        known: &mut Vec<Requirement>,
+    ) -> Option<String> {
+        let given = ["text", "source"].map(|key| (key, self.get(table, key)));
+        let Some(id) = self.get(table, "id") else {
+            let named = given.into_iter().find_map(|(_, named)| named);
+            if let Some(named) = named.filter(|_| !table.contains_key("id")) {
+                let message =
+                    "`text` and `source` describe a requirement, and this row has no `id`";
+                self.wrong(named.span, message, "add `id = \"R1\"`");
+            }
+            return None;
+        };
+        if id.text.trim().is_empty() || id.text.contains(text::acts) {
+            let message = "`id` must be one line of text";
+            self.wrong(id.span, message, "write for example `id = \"R1\"`");
+            return None;
+        }
+        let index = known.iter().position(|other| other.id == id.text);
+        let index = index.unwrap_or_else(|| {
+            known.push(Requirement {
+                id: id.text.clone(),
+                text: String::new(),
+                source: String::new(),
+                span: at,
+            });
+            known.len() - 1
+        });
+        for (key, named) in given {
+            let Some(named) = named else { continue };
+            let field = match key {
+                "text" => &mut known[index].text,
+                _ => &mut known[index].source,
+            };
+            if field.is_empty() {
+                *field = named.text;
+            } else if *field != named.text {
+                let message = format!(
+                    "`{key}` of the requirement `{}` is different above",
+                    id.text
+                );
+                let help = "write it once, in the first row with this `id`";
+                self.wrong(named.span, message, help);
+            }
+        }
+        Some(id.text)
+    }
+
     fn property(&mut self, at: Span, table: &DeTable<'_>) -> Option<Row> {
         let kinds = KINDS.iter().filter(|(kind, _)| table.contains_key(*kind));
         let kinds: Vec<_> = kinds.collect();
@@ -82,7 +154,7 @@ impl Reader {
                 .copied()
                 .chain(others)
                 .chain(USES)
-                .chain(["name"])
+                .chain(COMMON)
                 .collect();
             if kinds.is_empty()
                 && table
@@ -97,7 +169,7 @@ impl Reader {
             self.wrong(at, message, "add for example `never = \"Y000 & Y001\"`");
             return None;
         };
-        let keys = [&["name", *kind], *others].concat();
+        let keys = [&COMMON[..], &[*kind], *others].concat();
         self.known(PROPERTY, table, &keys);
         let first = self.get(table, kind)?;
         let kind = match *kind {
@@ -122,6 +194,7 @@ impl Reader {
         };
         Some(Row {
             name: self.get(table, "name").map(|name| name.text),
+            requirement: None,
             kind,
             span: at,
         })
@@ -133,4 +206,10 @@ impl Reader {
         project.verify.timeout = self.duration(table, "timeout");
         project.verify.free = self.devices(table, "free", "M100-M115");
     }
+}
+
+/// Returns true for a row that says what is required, and not how a program shows it: tests do, or nothing yet.
+fn is_requirement(table: &DeTable<'_>) -> bool {
+    let mut keys = table.keys().map(|key| key.get_ref().as_ref());
+    table.contains_key("id") && keys.all(|key| COMMON.contains(&key))
 }

@@ -451,3 +451,33 @@ fn unknown_keys_are_marked() {
     ];
     insta::assert_snapshot!(shown.map(mistakes).join("\n"));
 }
+
+/// Rows with one `id` describe one requirement, which need not have a property.
+#[test]
+fn properties_belong_to_requirements() {
+    let text = "[[property]]\nid = 'R1'\ntext = 'never both'\nsource = 'sheet, 3'\nnever = 'Y000 & Y001'\n\
+                [[property]]\nid = 'R1'\nname = 'other'\nnever = 'Y002'\n[[property]]\nid = 'R2'\ntext = 'a lamp'\n\
+                [[property]]\nnever = 'Y003'\n";
+    let project = parse(text).unwrap();
+    let requirements = project.requirements.iter();
+    let requirements: Vec<_> = requirements
+        .map(|r| (&*r.id, &*r.text, &*r.source))
+        .collect();
+    assert_eq!(
+        requirements,
+        [("R1", "never both", "sheet, 3"), ("R2", "a lamp", "")]
+    );
+    let rows = project.properties.iter();
+    let rows: Vec<_> = rows.map(|row| row.requirement.as_deref()).collect();
+    assert_eq!(rows, [Some("R1"), Some("R1"), None]);
+    let shown = [
+        "[[property]]\ntext = 'never'\nnever = 'Y000'\n",
+        "[[property]]\nid = ''\ntext = 'never'\nnever = 'Y000'\n",
+        "[[property]]\nid = 5\nnever = 'Y000'\n",
+        "[[property]]\nid = \"a\\nb\"\nnever = 'Y000'\n",
+        "[[property]]\nid = 'R1'\ntext = 'a'\n[[property]]\nid = 'R1'\ntext = 'b'\nnever = 'Y000'\n",
+        "[[property]]\nid = 'R1'\ntxt = 'a'\n",
+        "[[property]]\nid = 'R1'\nthen = 'a'\n",
+    ];
+    insta::assert_snapshot!(shown.map(mistakes).join("\n"));
+}

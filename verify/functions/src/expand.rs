@@ -237,6 +237,7 @@ impl Given {
         Some(Expanded {
             row: Row {
                 name: Some(name),
+                requirement: row.requirement.clone(),
                 kind,
                 span: row.span,
             },

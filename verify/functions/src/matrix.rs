@@ -363,6 +363,7 @@ impl<'t> Matrix<'t> {
             let name = format!("{own}{file} {place} ({cause_name}, {effect_name}): {fault}");
             let row = Row {
                 name: Some(name),
+                requirement: of.requirement.clone(),
                 kind: self.kind(kind),
                 span: of.span,
             };

@@ -3,7 +3,9 @@
 use super::keys;
 use super::naming::Named;
 use super::program::{self, CaseProgram, RawProgram, Tested};
-use super::raw::{Map, Near, RawCase, RawFile, RawPlc, RawRow, RawScenario, Scalar};
+use super::raw::{
+    Map, Near, RawCase, RawFile, RawNames, RawPlc, RawRow, RawScenario, Scalar,
+};
 use super::rules::RawOverTime;
 use super::serial::{self, PortId};
 use super::{Case, Check, OtherPlc, Rejects, Setting, Step, TestFile, Value};
@@ -329,6 +331,7 @@ impl Reader<'_> {
             name: raw.name.into_inner(),
             model: plc.model,
             variant: plc.variant,
+            requirements: self.requirements(raw.requirement),
             source: raw.source,
             basis: raw.basis,
             note: raw.note,
@@ -342,6 +345,26 @@ impl Reader<'_> {
             trace,
             check,
         }
+    }
+
+    /// The identifiers of a case's requirements.
+    fn requirements(&mut self, raw: Option<Spanned<RawNames>>) -> Vec<String> {
+        let Some(raw) = raw else { return Vec::new() };
+        let at = raw.span().start;
+        let names = match raw.into_inner() {
+            RawNames::One(name) => vec![name],
+            RawNames::Several(names) => names,
+        };
+        let mut ids: Vec<String> = Vec::new();
+        for name in names {
+            if name.trim().is_empty() || name.contains(text::acts) {
+                let message = "the identifier of a requirement is one line of text";
+                self.report(at, message.to_string());
+            } else if !ids.contains(&name) {
+                ids.push(name);
+            }
+        }
+        ids
     }
 
     /// The other PLCs of a case.

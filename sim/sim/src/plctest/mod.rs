@@ -72,6 +72,8 @@ pub struct Case {
     pub model: ModelId,
     /// The PLC of that model that it is for, if it names one.
     pub variant: Option<&'static Variant>,
+    /// Identifiers of the requirements that it belongs to, each once.
+    pub requirements: Vec<String>,
     /// Source of the behaviour: a manual's file and lines.
     pub source: String,
     /// Relation of the behaviour to the source.
@@ -293,6 +295,31 @@ program = "END"
         t.plctest.toml:12:1: a case needs steps or `rejects`
         t.plctest.toml:13:8: the case `a` is defined twice in this file
         "#);
+    }
+
+    #[test]
+    fn cases_name_requirements() {
+        let of = |line: &str| {
+            let text = format!(
+                "model = \"fx3u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\n{line}\nprogram = \"END\"\nstep = [{{ scans = 1 }}]\n"
+            );
+            parse("t.plctest.toml", &text).map(|file| file.cases[0].requirements.clone())
+        };
+        assert_eq!(of("requirement = \"R1\"").unwrap(), ["R1"]);
+        let several = "requirement = [\"R1\", \"R 2\", \"R1\"]";
+        assert_eq!(of(several).unwrap(), ["R1", "R 2"]);
+        assert!(of("").unwrap().is_empty());
+        let wrong = [
+            "requirement = 1",
+            "requirement = [\"\"]",
+            "requirement = \"a\\nb\"",
+        ];
+        let wrong = wrong.map(|line| of(line).unwrap_err().to_string());
+        insta::assert_snapshot!(wrong.join("\n"), @r"
+        t.plctest.toml:5:15: expected an identifier in quotes, or a list of them
+        t.plctest.toml:5:15: the identifier of a requirement is one line of text
+        t.plctest.toml:5:15: the identifier of a requirement is one line of text
+        ");
     }
 
     #[test]

@@ -42,6 +42,7 @@ pub(super) struct RawFile {
 pub(super) struct RawCase {
     pub(super) name: Spanned<String>,
     pub(super) model: Option<Spanned<String>>,
+    pub(super) requirement: Option<Spanned<RawNames>>,
     #[serde(default)]
     pub(super) source: String,
     pub(super) basis: Option<Basis>,
@@ -108,6 +109,17 @@ pub(super) struct RawStays {
     pub(super) after: Option<Spanned<String>>,
     pub(super) holds: Spanned<String>,
     pub(super) until: Option<Spanned<String>>,
+}
+
+/// A name, or several.
+#[derive(Clone, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected an identifier in quotes, or a list of them"
+)]
+pub(super) enum RawNames {
+    One(String),
+    Several(Vec<String>),
 }
 
 /// Values of the names with a `$` in one of several cases.
