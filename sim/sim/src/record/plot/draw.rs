@@ -1,10 +1,9 @@
 //! Drawing a plot.
 
 use super::curve::Curve;
+use super::marks::{Anchor, Diagram, Mark, NO_DASH, Stroke, rounded};
 use super::ticks::Ticks;
 use super::{Across, Panel, Plot, Shape};
-use svg::Document;
-use svg::node::element::{Element, Group, Line, Polygon, Polyline, Rectangle, Text};
 
 /// Size of the picture and its parts, in pixels.
 const WIDTH: f64 = 900.0;
@@ -23,24 +22,24 @@ const FOOT: f64 = 46.0;
 /// Colours that are distinguishable with any kind of colour vision (Okabe and Ito), and dashes that distinguish them
 /// without colour.
 const STROKES: [(&str, &str); 6] = [
-    ("#0072b2", "none"),
+    ("#0072b2", NO_DASH),
     ("#d55e00", "7 3"),
     ("#009e73", "2 2"),
     ("#cc79a7", "9 3 2 3"),
     ("#e69f00", "4 2"),
     ("#56b4e9", "1 3"),
 ];
-const INK: &str = "#222222";
+pub(super) const INK: &str = "#222222";
 const GRID: &str = "#dddddd";
 const LANE_INK: &str = "#0072b2";
 const LANE_FILL: &str = "#d6e6f2";
 
-/// Drawing area: its horizontal scale, and the elements so far.
+/// Drawing area: its horizontal scale, and the marks so far.
 struct Canvas {
     /// Left edge of the panels.
     left: f64,
     scale: Scale,
-    group: Group,
+    marks: Vec<Mark>,
 }
 
 /// The horizontal scale: times in milliseconds, or values.
@@ -129,46 +128,36 @@ impl Frame {
 }
 
 /// The picture.
-pub(super) fn draw(plot: &Plot) -> String {
+pub(super) fn draw(plot: &Plot) -> Diagram {
     let names = plot.lanes.iter().map(|(name, _)| 20.0 + width(name));
     let left = names.fold(LEFT[0], f64::max).min(LEFT[1]);
     let mut canvas = Canvas {
         left,
         scale: Scale::of(&plot.across),
-        group: Group::new()
-            .set("font-family", "Helvetica, Arial, sans-serif")
-            .set("font-size", 12)
-            .set("fill", INK),
+        marks: Vec::new(),
     };
-    let title = text(left, 22.0, "start", &plot.title);
-    canvas.add(title.set("font-size", 15).set("font-weight", "bold"));
+    canvas.add(Mark::Text {
+        at: [left, 22.0],
+        anchor: Anchor::Start,
+        size: Some(15),
+        bold: true,
+        text: plot.title.clone(),
+    });
     let mut top = HEAD;
     for panel in &plot.panels {
         top = canvas.panel(plot, panel, top + TITLE);
     }
     top = canvas.lanes(plot, top);
     canvas.foot(top);
-    let height = top + FOOT;
-    let background = Rectangle::new()
-        .set("width", number(WIDTH))
-        .set("height", number(height))
-        .set("fill", "#ffffff");
-    let document = Document::new()
-        .set("width", number(WIDTH))
-        .set("height", number(height))
-        .set(
-            "viewBox",
-            format!("0 0 {} {}", number(WIDTH), number(height)),
-        )
-        .add(background)
-        .add(canvas.group);
-    format!("{document}\n")
+    Diagram {
+        size: [WIDTH, top + FOOT],
+        marks: canvas.marks,
+    }
 }
 
 impl Canvas {
-    fn add(&mut self, element: impl Into<Element>) {
-        let group = std::mem::replace(&mut self.group, Group::new());
-        self.group = group.add(element.into());
+    fn add(&mut self, mark: Mark) {
+        self.marks.push(mark);
     }
 
     fn x(&self, at: f64) -> f64 {
@@ -192,7 +181,13 @@ impl Canvas {
             least: ticks.least(),
             greatest: ticks.greatest(),
         };
-        self.add(text(self.left, top - 9.0, "start", &panel.title).set("font-weight", "bold"));
+        self.add(Mark::Text {
+            at: [self.left, top - 9.0],
+            anchor: Anchor::Start,
+            size: None,
+            bold: true,
+            text: panel.title.clone(),
+        });
         if panel.curves.iter().any(|(name, _)| *name != panel.title) {
             self.legend(panel, top - 9.0);
         }
@@ -201,18 +196,20 @@ impl Canvas {
             let y = frame.y(value);
             let colour = if value == 0.0 { "#999999" } else { GRID };
             self.add(line([self.left, y], [WIDTH - RIGHT, y], colour));
-            self.add(text(self.left - 8.0, y + 4.0, "end", &label));
+            self.add(text(self.left - 8.0, y + 4.0, Anchor::End, &label));
         }
         for (i, (_, id)) in panel.curves.iter().enumerate() {
             let (colour, dash) = STROKES[i % STROKES.len()];
             let points = self.places(&plot.curves[id.0], frame);
-            let curve = Polyline::new()
-                .set("points", joined(&points))
-                .set("fill", "none")
-                .set("stroke", colour)
-                .set("stroke-width", "1.6")
-                .set("stroke-linejoin", "round");
-            self.add(dashed(curve.into(), dash));
+            self.add(Mark::Curve {
+                points,
+                stroke: Stroke {
+                    colour,
+                    width: 1.6,
+                    dash,
+                },
+                is_round: true,
+            });
         }
         self.border(frame);
         frame.bottom()
@@ -223,10 +220,17 @@ impl Canvas {
         let mut x = WIDTH - RIGHT;
         for (i, (name, _)) in panel.curves.iter().enumerate().rev() {
             let (colour, dash) = STROKES[i % STROKES.len()];
-            self.add(text(x, y, "end", name));
+            self.add(text(x, y, Anchor::End, name));
             x -= width(name) + 6.0;
-            let sample = line([x - 26.0, y - 4.0], [x, y - 4.0], colour);
-            self.add(dashed(sample.set("stroke-width", "1.6").into(), dash));
+            self.add(Mark::Line {
+                from: [x - 26.0, y - 4.0],
+                to: [x, y - 4.0],
+                stroke: Stroke {
+                    colour,
+                    width: 1.6,
+                    dash,
+                },
+            });
             x -= 26.0 + 18.0;
         }
     }
@@ -256,7 +260,7 @@ impl Canvas {
             self.add(text(
                 self.left - 8.0,
                 top + LANE / 2.0 + 4.0,
-                "end",
+                Anchor::End,
                 &shortened(name),
             ));
             let points = self.places(&plot.curves[id.0], frame);
@@ -265,18 +269,19 @@ impl Canvas {
             };
             let ground = frame.y(0.0);
             let closed = [&[[first, ground]], &points[..], &[[last, ground]]].concat();
-            self.add(
-                Polygon::new()
-                    .set("points", joined(&closed))
-                    .set("fill", LANE_FILL),
-            );
-            self.add(
-                Polyline::new()
-                    .set("points", joined(&points))
-                    .set("fill", "none")
-                    .set("stroke", LANE_INK)
-                    .set("stroke-width", "1.2"),
-            );
+            self.add(Mark::Area {
+                points: closed,
+                colour: LANE_FILL,
+            });
+            self.add(Mark::Curve {
+                points,
+                stroke: Stroke {
+                    colour: LANE_INK,
+                    width: 1.2,
+                    dash: NO_DASH,
+                },
+                is_round: false,
+            });
         }
         self.border(all);
         all.bottom()
@@ -287,10 +292,10 @@ impl Canvas {
         for (at, label) in self.scale.marks.clone() {
             let x = self.x(at);
             self.add(line([x, y], [x, y + 4.0], INK));
-            self.add(text(x, y + 18.0, "middle", &label));
+            self.add(text(x, y + 18.0, Anchor::Middle, &label));
         }
         let middle = (self.left + WIDTH - RIGHT) / 2.0;
-        let title = text(middle, y + 36.0, "middle", &self.scale.title);
+        let title = text(middle, y + 36.0, Anchor::Middle, &self.scale.title);
         self.add(title);
     }
 
@@ -302,16 +307,11 @@ impl Canvas {
     }
 
     fn border(&mut self, frame: Frame) {
-        self.add(
-            Rectangle::new()
-                .set("x", number(self.left))
-                .set("y", number(frame.top))
-                .set("width", number(WIDTH - self.left - RIGHT))
-                .set("height", number(frame.height))
-                .set("fill", "none")
-                .set("stroke", INK)
-                .set("stroke-width", "0.8"),
-        );
+        self.add(Mark::Frame {
+            at: [self.left, frame.top],
+            size: [WIDTH - self.left - RIGHT, frame.height],
+            stroke: thin(INK),
+        });
     }
 
     /// Positions of a curve's points, without those that change nothing.
@@ -371,44 +371,27 @@ fn distance([x, y]: [f64; 2], [ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
     (x - ax - part * dx).hypot(y - ay - part * dy)
 }
 
-/// To a hundredth of a pixel.
-fn rounded(value: f64) -> f64 {
-    (value * 100.0).round() / 100.0
-}
-
-fn number(value: f64) -> String {
-    rounded(value).to_string()
-}
-
-fn joined(points: &[[f64; 2]]) -> String {
-    let pair = |[x, y]: &[f64; 2]| format!("{},{}", number(*x), number(*y));
-    points.iter().map(pair).collect::<Vec<_>>().join(" ")
-}
-
-fn line(from: [f64; 2], to: [f64; 2], colour: &str) -> Line {
-    Line::new()
-        .set("x1", number(from[0]))
-        .set("y1", number(from[1]))
-        .set("x2", number(to[0]))
-        .set("y2", number(to[1]))
-        .set("stroke", colour)
-        .set("stroke-width", "0.8")
-}
-
-fn dashed(element: Element, dash: &str) -> Element {
-    let mut element = element;
-    if dash != "none" {
-        let attributes = element.get_attributes_mut();
-        attributes.insert("stroke-dasharray".to_string(), dash.into());
+fn thin(colour: &'static str) -> Stroke {
+    Stroke {
+        colour,
+        width: 0.8,
+        dash: NO_DASH,
     }
-    element
 }
 
-fn text(x: f64, y: f64, anchor: &str, content: &str) -> Text {
-    Text::new(content)
-        .set("x", number(x))
-        .set("y", number(y))
-        .set("text-anchor", anchor)
+fn line(from: [f64; 2], to: [f64; 2], colour: &'static str) -> Mark {
+    let stroke = thin(colour);
+    Mark::Line { from, to, stroke }
+}
+
+fn text(x: f64, y: f64, anchor: Anchor, content: &str) -> Mark {
+    Mark::Text {
+        at: [x, y],
+        anchor,
+        size: None,
+        bold: false,
+        text: content.to_string(),
+    }
 }
 
 /// A name as long as there is room for left of a lane.

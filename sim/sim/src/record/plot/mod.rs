@@ -6,9 +6,11 @@
 
 mod curve;
 mod draw;
+mod marks;
 mod ticks;
 
 use curve::Curve;
+pub use marks::{Anchor, Diagram, Mark, NO_DASH, Stroke};
 
 /// Interpolation of a curve between its points.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -146,9 +148,14 @@ impl Plot {
         self.curves[curve.0].push(at, value);
     }
 
+    /// The diagram as marks.
+    pub fn diagram(&self) -> Diagram {
+        draw::draw(self)
+    }
+
     /// The diagram as SVG.
     pub fn draw(&self) -> String {
-        draw::draw(self)
+        self.diagram().svg()
     }
 }
 
