@@ -9,6 +9,7 @@ use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
 use rungc_ir::ResetStates;
 use rungc_ladder::circuit::Circuit;
+use rungc_ladder::drawing::Power;
 use rungc_ladder::svg::Painter;
 use rungc_ladder::{Ladder, Network};
 use rungc_sim::Target;
@@ -47,13 +48,6 @@ struct Link {
     to: Option<usize>,
     /// Of an edge: what it saw in the last scan, and in the one before.
     seen: [bool; 2],
-}
-
-/// Power of each net, and the state of each link: it conducts, is on or is driven.
-#[derive(Default)]
-struct Power {
-    nets: Vec<bool>,
-    links: Vec<bool>,
 }
 
 impl Scene {
@@ -117,6 +111,15 @@ impl Scene {
         shown.flow(seen, &mut self.power);
         let mut outputs = shown.links.iter().filter(|link| link.to.is_none());
         outputs.any(|link| self.power.nets[link.from])
+    }
+
+    /// The power in a network, from 0; none in one that does not exist.
+    pub fn power(&mut self, network: usize, seen: Seen) -> &Power {
+        match self.networks.get(network) {
+            Some(shown) => shown.flow(seen, &mut self.power),
+            None => self.power = Power::default(),
+        }
+        &self.power
     }
 
     /// The state of each network as JSON: for each net whether it has power, for each link whether it conducts, is on

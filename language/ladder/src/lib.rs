@@ -9,6 +9,7 @@
 pub mod build;
 pub mod circuit;
 pub mod compare;
+pub mod drawing;
 pub mod html;
 pub mod layout;
 pub mod list;

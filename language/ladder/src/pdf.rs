@@ -14,6 +14,9 @@ use rungc_analysis::resolve::Resolved;
 
 mod fonts;
 mod page;
+mod parts;
+
+pub use parts::Pen;
 
 /// Characters of a line of a network.
 const WIDTH: usize = 104;
@@ -29,13 +32,7 @@ const COMPRESSION: u8 = 6;
 
 /// The document of a program.
 pub fn document(title: &str, resolved: &Resolved, ladder: &Ladder) -> Vec<u8> {
-    let mut sheets = Sheets {
-        title,
-        pages: Vec::new(),
-        outline: Vec::new(),
-        y: 0.0,
-    };
-    sheets.page();
+    let mut sheets = Sheets::new(title);
     let chart = Chart::of(resolved, ladder);
     sheets.cover(resolved, ladder, chart.as_ref());
     if let Some(chart) = &chart {
@@ -65,8 +62,8 @@ pub fn document(title: &str, resolved: &Resolved, ladder: &Ladder) -> Vec<u8> {
     sheets.finish()
 }
 
-/// Pages in work.
-struct Sheets<'a> {
+/// Pages in work: what is added comes below what is there, on further pages as needed.
+pub struct Sheets<'a> {
     title: &'a str,
     pages: Vec<Page>,
     /// Entries of the outline: text, page, place below the upper edge.
@@ -75,7 +72,19 @@ struct Sheets<'a> {
     y: f64,
 }
 
-impl Sheets<'_> {
+impl<'a> Sheets<'a> {
+    /// An empty page, with this title at the head of all pages.
+    pub fn new(title: &'a str) -> Self {
+        let mut sheets = Sheets {
+            title,
+            pages: Vec::new(),
+            outline: Vec::new(),
+            y: 0.0,
+        };
+        sheets.page();
+        sheets
+    }
+
     fn page(&mut self) {
         self.pages.push(Page::new());
         self.y = 0.0;
@@ -94,6 +103,7 @@ impl Sheets<'_> {
         }
     }
 
+    /// Adds an entry to the outline, which leads to the next line.
     fn outline(&mut self, text: &str) {
         let place = EDGE + HEAD + self.y;
         self.outline
@@ -199,7 +209,7 @@ impl Sheets<'_> {
     }
 
     /// The file.
-    fn finish(mut self) -> Vec<u8> {
+    pub fn finish(mut self) -> Vec<u8> {
         let count = self.pages.len();
         let title = self.title.to_string();
         for (i, page) in self.pages.iter_mut().enumerate() {

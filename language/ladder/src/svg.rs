@@ -133,7 +133,7 @@ fn empty(size: (f64, f64)) -> Document {
 }
 
 /// Marks become text one by one: a network may have hundreds of thousands.
-fn document(picture: &Picture) -> Document {
+pub(crate) fn document(picture: &Picture) -> Document {
     let mut text = String::new();
     for (i, mark) in picture.marks.iter().enumerate() {
         let before = if i > 0 { "\n" } else { "" };

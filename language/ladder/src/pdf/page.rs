@@ -57,6 +57,36 @@ impl Page {
         self.content.stroke();
     }
 
+    /// A line through these points.
+    pub(super) fn curve(&mut self, points: &[Point], width: f64, colour: [f32; 3]) {
+        self.content.save_state();
+        let [red, green, blue] = colour;
+        self.content.set_stroke_rgb(red, green, blue);
+        self.content.set_line_width(width as f32);
+        self.path(points);
+        self.content.stroke();
+        self.content.restore_state();
+    }
+
+    /// A filled polygon.
+    pub(super) fn area(&mut self, points: &[Point], colour: [f32; 3]) {
+        self.content.save_state();
+        let [red, green, blue] = colour;
+        self.content.set_fill_rgb(red, green, blue);
+        self.path(points);
+        self.content.fill_nonzero();
+        self.content.restore_state();
+    }
+
+    fn path(&mut self, points: &[Point]) {
+        for (i, point) in points.iter().enumerate() {
+            match i {
+                0 => self.go(*point),
+                _ => self.draw_to(*point),
+            }
+        }
+    }
+
     fn go(&mut self, to: Point) {
         self.content.move_to(to.0 as f32, (PAPER.1 - to.1) as f32);
     }
@@ -89,7 +119,11 @@ impl Page {
         let outside = |top: f64, bottom: f64| bottom < part.0 || top > part.1;
         match mark {
             Mark::Line { class, from, to } => {
-                let width = if *class == "rail" { 2.0 } else { 1.3 };
+                let width = match *class {
+                    class if class.ends_with("lit") => 3.2,
+                    "rail" => 2.0,
+                    _ => 1.3,
+                };
                 if !outside(from.1.min(to.1), from.1.max(to.1)) {
                     self.line(place(*from), place(*to), width * on.scale);
                 }
@@ -118,7 +152,10 @@ impl Page {
                     self.text(text, place(*at), size * on.scale, anchor, gray);
                 }
             }
-            Mark::Frame { class: "area", .. } => {}
+            Mark::Frame {
+                class: "area" | "area lit",
+                ..
+            } => {}
             Mark::Frame {
                 class,
                 at,
@@ -130,7 +167,8 @@ impl Page {
                     let radius = f64::from(radius.unwrap_or(0)) * on.scale;
                     self.frame(place(*at), far, radius);
                     self.content.set_fill_gray(1.0);
-                    self.content.set_line_width((1.3 * on.scale) as f32);
+                    let width = if *class == "box lit" { 3.2 } else { 1.3 };
+                    self.content.set_line_width((width * on.scale) as f32);
                     match *class {
                         "gap" => self.content.fill_nonzero(),
                         _ => self.content.fill_nonzero_and_stroke(),
