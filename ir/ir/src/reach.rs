@@ -186,22 +186,17 @@ pub fn written_by(model: &Model, action: &Action, found: &mut impl FnMut(Footpri
             found(used);
         }
     };
-    let written = match action {
-        // Refreshing outputs changes nothing but terminals.
-        Action::Call(call) if shows_outputs(call) => Some((call, &[][..])),
-        Action::Call(call) => call
-            .function
-            .written_operands()
-            .map(|written| (call, written)),
-        _ => None,
+    let Action::Call(call) = action else {
+        return of_action(model, action, &mut found);
     };
-    match written {
-        Some((call, written)) => {
-            let args = written.iter().filter_map(|&operand| call.args.get(operand));
-            args.for_each(|arg| of_arg(model, arg, call.wide, &mut found));
-        }
-        None => of_action(model, action, &mut found),
-    }
+    let written = match call.function.written_operands() {
+        // Refreshing outputs changes nothing but terminals.
+        _ if shows_outputs(call) => &[][..],
+        Some(written) => written,
+        None => return of_action(model, action, &mut found),
+    };
+    let args = written.iter().filter_map(|&operand| call.args.get(operand));
+    args.for_each(|arg| of_arg(model, arg, call.wide, &mut found));
 }
 
 fn shows_outputs(call: &Call) -> bool {
