@@ -356,6 +356,8 @@ impl<'m> Encoder<'m> {
         encoder.network = None;
         encoder.state.insert(Key::First, vec![Lit::FALSE]);
         encoder.lose();
+        // What properties add is in no network.
+        encoder.network = None;
         encoder
     }
 

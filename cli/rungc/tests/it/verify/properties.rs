@@ -294,7 +294,7 @@ fn a_property_of_what_nothing_drives_has_a_warning() {
         let line = shown.lines().find(|line| line.contains("W0802"));
         line.unwrap_or_default().to_string()
     };
-    insta::assert_snapshot!(warned("Y005 & M500 & D7 > 1 & X077 & M8013 & M5", &[]), @"");
+    insta::assert_snapshot!(warned("Y005 & M500 & D7 > 1 & X077 & M8013 & M5", &[]), @"warning[W0802]: `never Y005 & M500 & D7 > 1 & X077 & M8013 & M5`: nothing drives `Y005`, `M500`");
     assert_eq!(warned("Y001 & M500", &["--free", "M500"]), "");
     assert_eq!(warned("Y000 & X005 & !M5", &[]), "");
 }
