@@ -57,6 +57,13 @@ super::codes! {
     wrong: "LD M8002\nMOV H60 D8126\nEND\n",
     right: "LD M8002\nMOV H20 D8126\nLD X0\nMODBUS H0203 H100 K1 D20\nEND\n";
 
+    LINK_RANGE = "W0609" "link-range" Warning None,
+    "a number that an N:N link does not have",
+    "`D8176` is the station of an N:N link, 0 to 7 (enhanced: 0 to 15), 0 the master alone; `D8177` in the master is the number of slaves, 1 to 7 (15), `D8178` the mode, 0 to 2. A slave with another station is never asked; a master takes a larger number of slaves as the largest, and another mode as 0.",
+    model: "h2u",
+    wrong: "LD M8002\nMOV H40 D8126\nMOV K9 D8177\nEND\n",
+    right: "LD M8002\nMOV H40 D8126\nMOV K7 D8177\nEND\n";
+
     PORT_SET_BY_INDEX = "W0690" "port-set-by-index" Warning None,
     "a write that may set up a serial port through an index register",
     "The index decides which register the instruction writes, and some of those that it may reach choose a port's protocol, station or format. A compiled program contains only the protocols that instructions without an index choose. If this instruction alone chooses the protocol, the port of a compiled program stays silent, although it works in `rungc run` and `rungc test`. Name the register instead: `D8126`, not `D8120Z0`.",

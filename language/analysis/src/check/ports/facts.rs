@@ -17,6 +17,15 @@ const USUAL_INDEX: u32 = 256;
 /// The same for relays.
 const USUAL_RELAY: u32 = 31;
 
+/// Station, number of slaves and mode of an N:N link (h1u-h2u-programming §5.4).
+pub(super) const NETWORK: [Device; 3] = {
+    const fn register(number: u32) -> Device {
+        let class = DeviceClass::D;
+        Device { class, number }
+    }
+    [register(8176), register(8177), register(8178)]
+};
+
 /// One write to a register or relay.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Write {
@@ -104,6 +113,7 @@ impl Facts {
         });
         let named = (0..code.len).filter_map(|i| super::port_register(code, i));
         let watched = BTreeSet::from_iter(devices.chain(named));
+        let named = watched.iter().copied().chain(NETWORK).collect();
         let mut facts = Facts {
             model: code.model(),
             writes: BTreeMap::new(),
@@ -113,7 +123,7 @@ impl Facts {
         };
         let first_scan = first_scan(code);
         for (i, first) in first_scan.iter().enumerate() {
-            facts.note(code, i, first, &watched);
+            facts.note(code, i, first, (&named, &watched));
         }
         let order = |write: &Write| {
             let order = first_scan[write.at].order.clone();
@@ -124,8 +134,14 @@ impl Facts {
         facts
     }
 
-    /// Notes what instruction `i` writes.
-    fn note(&mut self, code: &Code, i: usize, first: &First, watched: &BTreeSet<Device>) {
+    /// Notes what instruction `i` writes, of devices that it names and of set-up registers and relays near an index.
+    fn note(
+        &mut self,
+        code: &Code,
+        i: usize,
+        first: &First,
+        (named, near): (&BTreeSet<Device>, &BTreeSet<Device>),
+    ) {
         if matches!(code.lower(i), Some(Lower::Call(RtFn::Uinit))) {
             self.note_uinit(code, i);
         }
@@ -133,7 +149,7 @@ impl Facts {
         for access in accesses::of(code.resolved, i).filter(accesses::Access::writes) {
             let Device { class, number } = access.first;
             if access.indexed {
-                self.note_index(&access, watched);
+                self.note_index(&access, near);
                 continue;
             }
             let further = match access.count {
@@ -145,7 +161,7 @@ impl Facts {
                 class,
                 number: number.saturating_add(further),
             };
-            for &device in watched.range(access.first..=last) {
+            for &device in named.range(access.first..=last) {
                 let value = constants.get(&device).copied();
                 self.writes.entry(device).or_default().push(Write {
                     at: i,

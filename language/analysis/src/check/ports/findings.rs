@@ -1,7 +1,7 @@
 //! Errors in the set-up of serial ports.
 
 use super::super::Code;
-use super::facts::{Facts, RegisterValue, Uinit, Write, d, m};
+use super::facts::{Facts, NETWORK, RegisterValue, Uinit, Write, d, m};
 use super::{Use, has_station, port_of, use_of};
 use crate::accesses;
 use rungc_catalogue::Lower;
@@ -29,6 +29,7 @@ pub(in super::super) fn check(code: &Code, out: &mut Diagnostics) {
             port.overridden(out);
             port.late(out);
             port.station(out);
+            port.network(out);
             port.rate(out);
             port.own_frames(out);
             port.ethernet_card(out);
@@ -227,6 +228,46 @@ impl Port<'_> {
             Some(register) => diagnostic.help(format!("set `{register}` to its station")),
             None => diagnostic,
         });
+    }
+
+    /// Numbers that an N:N link does not have.
+    fn network(&self, out: &mut Diagnostics) {
+        use Protocol::{EnhancedMaster, EnhancedSlave, NnMaster, NnSlave};
+        let (enhanced, master) = match self.protocol {
+            Some(NnMaster) => (false, true),
+            Some(NnSlave) => (false, false),
+            Some(EnhancedMaster) => (true, true),
+            Some(EnhancedSlave) => (true, false),
+            _ => return,
+        };
+        let most = if enhanced { 15 } else { 7 };
+        let [station, slaves, mode] = NETWORK;
+        let rows = [
+            (station, !master, 1..=most, "stations of slaves"),
+            (slaves, master, 1..=most, "numbers of slaves"),
+            (mode, master && !enhanced, 0..=2, "modes"),
+        ];
+        for (register, counts, range, what) in rows {
+            let RegisterValue::Constant(value) = self.facts.held(register) else {
+                continue;
+            };
+            let place = self.place(Some(register));
+            let Some(place) = place.filter(|_| counts && !range.contains(&value)) else {
+                continue;
+            };
+            let (least, most) = (range.start(), range.end());
+            let link = if enhanced {
+                "an enhanced N:N link"
+            } else {
+                "an N:N link"
+            };
+            let message =
+                format!("`{register}` is {value}: {what} of {link} are {least} to {most}");
+            let diagnostic = codes::LINK_RANGE
+                .at(self.code.span(place), message)
+                .label("out of range");
+            out.push(diagnostic);
+        }
     }
 
     /// A format word that names no bit rate.
