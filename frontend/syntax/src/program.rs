@@ -338,6 +338,12 @@ pub enum OperandKind {
 }
 
 impl OperandKind {
+    /// A floating constant; `None` outside what the PLCs accept: 0, and ±1.0×2^-126 to below ±1.0×2^128
+    /// (l01s-programming §2.1).
+    pub fn float(value: f32) -> Option<Self> {
+        (value == 0.0 || value.is_normal()).then_some(OperandKind::Float(value))
+    }
+
     /// The value of a constant without an index.
     pub fn constant(&self) -> Option<i64> {
         match *self {

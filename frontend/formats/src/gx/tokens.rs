@@ -136,9 +136,7 @@ fn operand(code: u8, payload: &[u8]) -> Option<Bare<'_>> {
         (0xE8, 2) => OperandKind::Decimal((value as u16 as i16).into(), None),
         (0xE9, _) => OperandKind::Decimal((value as i32).into(), None),
         (0xEA, ..=2) | (0xEB, _) => OperandKind::Hex(value.into(), None),
-        (0xEC | 0xED, 4) => {
-            OperandKind::Float(Some(f32::from_bits(value)).filter(|v| v.is_finite())?)
-        }
+        (0xEC | 0xED, 4) => OperandKind::float(f32::from_bits(value))?,
         (0xAB, _) => return Some(Bare::Address(value)),
         _ => {
             let device = Device {

@@ -35,8 +35,10 @@ pub(super) enum Kind {
     Decimal,
     /// A hexadecimal constant over 32 bits.
     Hex,
-    /// A floating constant that single precision cannot hold.
+    /// A floating constant above what single precision can hold.
     Float,
+    /// A floating constant nearer to 0 than the smallest normal number.
+    SmallFloat,
     /// A digit count outside 1 to 8.
     DigitCount,
     /// A digit group of a device that is not a bit device.
@@ -268,6 +270,13 @@ impl Kind {
             Kind::Step | Kind::DeviceNumber | Kind::Decimal | Kind::Hex | Kind::Float => {
                 self.too_large(span, text)
             }
+            Kind::SmallFloat => codes::BIG_NUMBER
+                .at(
+                    span,
+                    format!("floating constant `{text}` is too close to 0"),
+                )
+                .label("single precision begins at about 1.18E-38")
+                .help("check the exponent, or write `E0`"),
         }
     }
 
@@ -443,7 +452,11 @@ fn other_notation(upper: &str) -> Option<(&'static str, String)> {
     if let Some(meant) = prefixed.or(suffixed).and_then(hexadecimal) {
         return Some(("a hexadecimal constant starts with H here", meant));
     }
-    if upper.contains('.') && upper.parse::<f32>().is_ok_and(f32::is_finite) {
+    if upper.contains('.')
+        && upper
+            .parse()
+            .is_ok_and(|value| OperandKind::float(value).is_some())
+    {
         return Some((
             "a floating constant starts with E here",
             format!("E{upper}"),

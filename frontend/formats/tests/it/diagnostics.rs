@@ -85,7 +85,7 @@ fn operands_that_are_none() {
 
 #[test]
 fn operands_with_impossible_numbers() {
-    let text = "LD X008\nOUT Y19\nMOV K2147483648 D0\nMOV H123456789 D0\nDEMOV E1E99 D0\nMOV D4294967296 D0\nMOV K9M0 D0\nMOV K4D0 D1\nLD D0.G\nLD D0.10\nMOV D0Z99999999999 D1\nMOV U0\\G99999999999 D0\n";
+    let text = "LD X008\nOUT Y19\nMOV K2147483648 D0\nMOV H123456789 D0\nDEMOV E1E99 D0\nDEMOV E1E-46 D0\nDEMOV E-1.1-38 D0\nMOV D4294967296 D0\nMOV K9M0 D0\nMOV K4D0 D1\nLD D0.G\nLD D0.10\nMOV D0Z99999999999 D1\nMOV U0\\G99999999999 D0\n";
     insta::assert_snapshot!(findings(&read_text("a.il", text)));
 }
 

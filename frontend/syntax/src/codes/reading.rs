@@ -21,7 +21,7 @@ super::codes! {
 
     BIG_NUMBER = "E0004" "big-number" Error None,
     "number that is too large",
-    "No device number or constant of the PLC is this large.",
+    "No device number or constant of the PLC is this large. Floating constants also end near 0, at about 1.18E-38.",
     wrong: "LD X0\nMOV K99999999999999999999 D0\nEND\n",
     right: "LD X0\nMOV K99 D0\nEND\n";
 

@@ -204,10 +204,21 @@ fn e_operand<'s>() -> impl Rule<'s, OperandKind> {
                 None => mantissa.parse::<f32>(),
                 Some(exponent) => format!("{mantissa}e{exponent}").parse(),
             };
-            OperandKind::Float(value.ok().filter(|v| v.is_finite()).unwrap_or_else(|| {
-                report(e, Kind::Float);
-                0.0
-            }))
+            let is_zero = !mantissa.contains(|c: char| matches!(c, '1'..='9'));
+            let value: Option<f32> = value.ok();
+            let read = value.filter(|value| is_zero || *value != 0.0);
+            read.and_then(OperandKind::float).unwrap_or_else(|| {
+                let is_large = value.is_none_or(f32::is_infinite);
+                report(
+                    e,
+                    if is_large {
+                        Kind::Float
+                    } else {
+                        Kind::SmallFloat
+                    },
+                );
+                OperandKind::Float(0.0)
+            })
         })
 }
 
