@@ -243,10 +243,12 @@ pub(super) const ROWS: &[Inst] = &[
     logic("INV", "Invert", Basic::Inv).fnc(98).example("LD X000\nAND X001\nINV\nOUT Y000")
         .text("Inverts the result so far."),
     logic("MEP", "Rising edge of the result", Basic::Mep)
+        .source(FX3_MANUAL)
         .on(LIKE_FX3)
         .example("LD X000\nAND X001\nMEP\nSET M0")
         .text("On for the one scan in which the result so far has come on."),
     logic("MEF", "Falling edge of the result", Basic::Mef)
+        .source(FX3_MANUAL)
         .on(LIKE_FX3)
         .example("LD X000\nAND X001\nMEF\nSET M0")
         .text("On for the one scan in which the result so far has gone off."),

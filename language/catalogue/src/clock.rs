@@ -63,6 +63,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Tsub)
         .text("Subtracts the time S2 from S1. Below 0:00:00 a day is added and M8021 is on; M8020 is on at 0:00:00."),
     clock("HTOS", 164, "Hours to seconds")
+        .source(FX3_MANUAL)
         .repeat(Repeat::Same)
         .on(FX3U_L01S)
         .forms(ALL_FORMS)
@@ -71,6 +72,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Htos)
         .text("D = the time at S (hour, minute, second) in seconds."),
     clock("STOH", 165, "Seconds to hours")
+        .source(FX3_MANUAL)
         .on(FX3U_L01S)
         .forms(ALL_FORMS)
         .steps(5, 9)

@@ -229,6 +229,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Flt)
         .text("Writes S as a float to the pair D."),
     data("WSUM", 140, "Sum of a block")
+        .source(FX3_MANUAL)
         .steps(7, 13)
         .on(FX3U_L01S)
         .takes(&[
@@ -240,6 +241,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Wsum)
         .text("D = the sum of n words (32-bit: pairs) from S on, in double width."),
     data("WTOB", 141, "Words to bytes")
+        .source(FX3_MANUAL)
         .forms(W16_P)
         .steps(7, 7)
         .on(FX3U_L01S)
@@ -252,6 +254,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Wtob)
         .text("Writes the n bytes from S on, low byte first, one to each word from D on."),
     data("BTOW", 142, "Bytes to words")
+        .source(FX3_MANUAL)
         .forms(W16_P)
         .steps(7, 7)
         .on(FX3U_L01S)
@@ -264,6 +267,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Btow)
         .text("Packs the low bytes of n words from S on two to a word from D on, low byte first."),
     data("UNI", 143, "Unite nibbles")
+        .source(FX3_MANUAL)
         .repeat(Repeat::Same)
         .forms(W16_P)
         .steps(7, 7)
@@ -273,6 +277,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Uni)
         .text("Packs the low four bits of n words from S on into D, the first lowest; the other bits of D are 0."),
     data("DIS", 144, "Separate nibbles")
+        .source(FX3_MANUAL)
         .forms(W16_P)
         .steps(7, 7)
         .on(FX3U_L01S)

@@ -278,6 +278,7 @@ pub(super) const ROWS: &[Inst] = &[
              registers by Modbus.",
         ),
     io("VRRD", 85, "Read a potentiometer")
+        .source("JY992D88101 §5.9.6")
         .repeat(Repeat::Same)
         .on(FX)
         .forms(W16_P)
@@ -286,6 +287,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Vrrd)
         .text("D = the position of potentiometer S, 0 to 255."),
     io("VRSC", 86, "Read a potentiometer as a switch")
+        .source("JY992D88101 §5.9.7")
         .repeat(Repeat::Same)
         .on(FX)
         .forms(W16_P)
@@ -294,6 +296,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Vrsc)
         .text("D = the position of potentiometer S as a number from 0 to 10."),
     io("RBFM", 278, "Read from a module in parts")
+        .source(FX3_MANUAL)
         .on(FX3U)
         .steps(11, 11)
         .takes(&[
@@ -307,6 +310,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Rbfm)
         .text("Copies n1 words of the buffer memory of module m1 from address m2 on to D, n2 words in each scan."),
     io("WBFM", 279, "Write to a module in parts")
+        .source(FX3_MANUAL)
         .on(FX3U)
         .steps(11, 11)
         .takes(&[

@@ -91,6 +91,7 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[on(L01S).takes(ONE_L01S)])
         .text("Copies the float S to D. On L01S S may be an integer constant, which becomes a float."),
     float("ESTR", 116, "Float to text", RtFn::Estr)
+        .source(FX3_MANUAL)
         .steps(13, 13)
         .on(FX3U)
         .takes(&[
@@ -104,6 +105,7 @@ pub(super) const ROWS: &[Inst] = &[
              characters, S2+2 that of decimals.",
         ),
     float("EVAL", 117, "Text to float", RtFn::Eval)
+        .source(FX3_MANUAL)
         .repeat(Repeat::Same)
         .on(FX3U_L01S)
         .takes(&[text("S", GROUPS.or(PLACES)).len(13), real_out("D", REAL_RESULTS)])
@@ -152,6 +154,7 @@ pub(super) const ROWS: &[Inst] = &[
         .lower_on(&[(HM, Lower::Call(RtFn::EsqrClamped))])
         .text("D = the square root of S. M8020 is on if it is 0 (not on HM). A negative S is an error; on HM, a value that is not a finite number gives 0."),
     float("ENEG", 128, "Negate a float", RtFn::Eneg)
+        .source(FX3_MANUAL)
         .repeat(Repeat::Changes(0))
         .steps(5, 5)
         .on(FX3U_L01S)

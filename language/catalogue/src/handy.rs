@@ -179,6 +179,7 @@ pub(super) const ROWS: &[Inst] = &[
              m1 scans; M8029 is on at the end.",
         ),
     handy("SORT2", 149, "Sort a table by rows")
+        .source(FX3_MANUAL)
         .forms(W16_W32)
         .steps(11, 21)
         .on(FX3U_L01S)
@@ -196,6 +197,7 @@ pub(super) const ROWS: &[Inst] = &[
              descending with M8165 on. It takes m1 scans; M8029 is on at the end.",
         ),
     handy("ZPUSH", 102, "Save the index registers")
+        .source(FX3_MANUAL)
         .repeat(Repeat::Changes(0))
         .forms(W16_P)
         .steps(3, 3)
@@ -204,6 +206,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Zpush)
         .text("Saves V0–V7 and Z0–Z7 in the stack at D: D counts its levels, 16 words each."),
     handy("ZPOP", 103, "Restore the index registers")
+        .source(FX3_MANUAL)
         .repeat(Repeat::Changes(0))
         .forms(W16_P)
         .steps(3, 3)
@@ -212,6 +215,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Zpop)
         .text("Takes V0–V7 and Z0–Z7 back from the stack at D that ZPUSH filled."),
     handy("RND", 184, "Random number")
+        .source(FX3_MANUAL)
         .forms(W16_P)
         .steps(3, 3)
         .on(FX3U_L01S)
@@ -220,6 +224,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Rnd)
         .text("D = a pseudo-random number from 0 to 32767, from the state in D8311 and D8310."),
     handy("DUTY", 186, "Timing pulse")
+        .source(FX3_MANUAL)
         .steps(7, 7)
         .on(FX3U)
         .takes(&[

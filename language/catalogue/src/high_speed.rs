@@ -361,6 +361,7 @@ pub(super) const ROWS: &[Inst] = &[
         .lower_on(&[(HM, Lower::Call(RtFn::AxisPlsr))])
         .text("Sends S2 pulses on output D with ramps of S3 ms up to S1 Hz and down. HM: an axis instead of D."),
     fast("HCMOV", 189, "Read a high-speed counter")
+        .source(FX3_MANUAL)
         .forms(W32)
         .steps(13, 13)
         .on(FX3U)
@@ -372,6 +373,7 @@ pub(super) const ROWS: &[Inst] = &[
         .lower(Lower::MoveCount)
         .text("D = the present value of counter S; with n = 1 the counter is then set to 0."),
     fast("HSCT", 280, "Table compare by high-speed counter")
+        .source(FX3_MANUAL)
         .forms(W32)
         .steps(21, 21)
         .on(FX3U_L01S.or(HM))

@@ -103,6 +103,7 @@ pub(super) const ROWS: &[Inst] = &[
         .stops_undriven()
         .text("Runs the axis of output D1 to its origin by the signals DOG S1 and zero S2, searching the DOG if it starts past it."),
     position("DVIT", 151, "Interrupt positioning")
+        .source(FX3_MANUAL)
         .on(FX3U.or(HM))
         .takes(MOVE)
         .variants(&[on(HM).forms(W32).takes(MOVE_HM)])
@@ -111,6 +112,7 @@ pub(super) const ROWS: &[Inst] = &[
         .lower_on(&[(HM, Lower::Call(RtFn::AxisDvit))])
         .text("Runs at S2 Hz until the interrupt input of the axis, then sends S1 pulses more."),
     position("TBL", 152, "Positioning by a table")
+        .source(FX3_MANUAL)
         .forms(W32)
         .steps(17, 17)
         .on(FX3GU)

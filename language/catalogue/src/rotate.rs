@@ -206,12 +206,14 @@ pub(super) const ROWS: &[Inst] = &[
         .lower_on(&[(HM, Lower::Call(RtFn::SfrdHm))])
         .text("Copies S+1, the oldest entry of the queue that S counts, to D and moves the others down. If it is empty, M8020 turns on."),
     queue("POP", 212, "Take the newest entry", RtFn::Pop)
+        .source(FX3_MANUAL)
         .repeat(Repeat::Changes(0))
         .on(FX3U_L01S)
         .takes(DEQUEUE_FX)
         .flags(&["M8020"])
         .text("Copies the entry that SFWR wrote last to D and takes it off the queue that S counts."),
     queue("SFR", 213, "Shift a word right", RtFn::Sfr)
+        .source(FX3_MANUAL)
         .repeat(Repeat::Changes(0))
         .steps(5, 5)
         .on(FX3U_L01S)
@@ -219,6 +221,7 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8022"])
         .text("Shifts D right by n bits, filling with zeros. The bit that left last is in M8022."),
     queue("SFL", 214, "Shift a word left", RtFn::Sfl)
+        .source(FX3_MANUAL)
         .repeat(Repeat::Changes(0))
         .steps(5, 5)
         .on(FX3U_L01S)

@@ -101,6 +101,9 @@ pub(super) const WITH_MODULES: ModelSet = NOT_HM.without(ModelSet::FX1S).without
 /// Reason of a row without an implementation; a test finds none.
 pub(super) const NO_LOWERING: &str = "the row does not say what implements it";
 
+/// The FX3 programming manual; its sections are in the order of the numbers FNC.
+pub(super) const FX3_MANUAL: &str = "JY997D16601";
+
 /// A row: 16-bit form of one step, no operands, driven by a contact, on all models.
 pub(super) const fn row(name: &'static str, title: &'static str, source: &'static str) -> Inst {
     Inst {
@@ -137,6 +140,11 @@ impl Inst {
 
     pub(super) const fn spelling(self, spelling: Spelling) -> Self {
         Inst { spelling, ..self }
+    }
+
+    /// Another source than the manual of its family.
+    pub(super) const fn source(self, source: &'static str) -> Self {
+        Inst { source, ..self }
     }
 
     /// It takes many scans, and stops when its contacts open.

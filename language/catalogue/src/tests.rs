@@ -37,6 +37,15 @@ fn extents_name_operands_that_exist() {
 }
 
 #[test]
+fn sources_are_manuals_of_models_that_have_the_instruction() {
+    for inst in all() {
+        let is_inovance = [ModelId::H1u, ModelId::H2u].map(|model| inst.models.has(model));
+        let cited = inst.source.starts_with("h1u-h2u-programming");
+        assert!(!cited || is_inovance.contains(&true), "{}", inst.name);
+    }
+}
+
+#[test]
 fn every_row_has_a_form_and_a_text() {
     for inst in all() {
         assert!(
