@@ -62,7 +62,15 @@ impl Lowerer<'_> {
                         .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
                     Some((device.number.into(), index, range, false))
                 }
-                _ => None,
+                OperandKind::Device(_, None)
+                | OperandKind::Decimal(_, None)
+                | OperandKind::Hex(_, None)
+                | OperandKind::WordBit(..)
+                | OperandKind::Nibbles(..)
+                | OperandKind::Float(_)
+                | OperandKind::Text(_)
+                | OperandKind::Buffer { .. }
+                | OperandKind::Unreadable(_) => None,
             }
         });
         let indexed: Vec<_> = indexed.collect();
@@ -83,9 +91,11 @@ impl Lowerer<'_> {
     /// Limits of a constant in the form at hand.
     fn constant_limits(&self, param: &Param) -> Option<(i64, i64)> {
         let wide = self.wide();
-        let of_wide_form = param.rules.iter().find_map(|rule| match *rule {
-            Rule::WideLimits(min, max) if wide => Some((min, max)),
-            _ => None,
+        let of_wide_form = param.rules.iter().find_map(|rule| {
+            let Rule::WideLimits(min, max) = *rule else {
+                return None;
+            };
+            wide.then_some((min, max))
         });
         match param.limits {
             Limits::Between(range) => Some(of_wide_form.unwrap_or(range)),
