@@ -655,7 +655,9 @@ mod tests {
     }
 
     /// Options whose values are a choice of each command, or a file, a folder or a flag by what the command makes.
-    const DIFFERENT: [&str; 7] = ["engine", "format", "io", "model", "output", "retain", "to"];
+    const DIFFERENT: [&str; 8] = [
+        "engine", "format", "io", "model", "output", "report", "retain", "to",
+    ];
 
     #[test]
     fn options_of_one_name_take_values_of_one_kind() {

@@ -29,6 +29,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A program that cases test.
+#[derive(Clone)]
 pub struct Covered {
     /// Its name: that of its file, or of the test file that holds its list.
     pub name: String,
@@ -53,6 +54,20 @@ impl Covered {
             .iter()
             .filter(|goal| self.is_reached(goal))
             .count()
+    }
+
+    /// The program as these cases alone test it.
+    #[must_use]
+    pub fn only(&self, is_one: &dyn Fn(Id) -> bool) -> Covered {
+        let mut part = self.clone();
+        part.cases.retain(|(id, _)| is_one(*id));
+        part.seen.fill(0);
+        for (_, seen) in &part.cases {
+            for (all, now) in part.seen.iter_mut().zip(seen) {
+                *all |= now;
+            }
+        }
+        part
     }
 
     /// Returns true if a goal was reached.

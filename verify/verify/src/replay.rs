@@ -8,6 +8,7 @@ use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
 use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
 use rungc_sim::property::{Condition, Monitor, Property, Reading, Watcher};
+use rungc_sim::record::Seen;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 
@@ -118,6 +119,15 @@ impl<'m> Run<'m> {
         let first = std::mem::take(&mut self.first);
         let stops = self.machine.last_error().stop != Stop::No;
         (!stops).then_some(if first { 0 } else { scan.ms })
+    }
+
+    /// The program as it is after the last scan.
+    pub fn seen(&self) -> Seen<'_> {
+        Seen {
+            machine: &self.machine,
+            hal: &self.hal,
+            plant: None,
+        }
     }
 }
 

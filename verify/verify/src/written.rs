@@ -30,12 +30,20 @@ pub fn rule(property: &Property) -> String {
             let (when, then) = (quoted(when), quoted(then));
             format!("whenever = [{{ when = {when}, then = {then}{within} }}]")
         }
-        Property::Stays { holds, until } => {
+        Property::Stays {
+            after,
+            holds,
+            until,
+        } => {
+            let after = match after {
+                Some(after) => format!(", after = {}", quoted(after)),
+                None => String::new(),
+            };
             let until = match until {
                 Condition::Constant(false) => String::new(),
                 until => format!(", until = {}", quoted(until)),
             };
-            format!("stays = [{{ holds = {}{until} }}]", quoted(holds))
+            format!("stays = [{{ holds = {}{after}{until} }}]", quoted(holds))
         }
     }
 }

@@ -41,8 +41,8 @@ pub struct VerifyArgs {
     /// Write the same model in BTOR2, in which bits are named after their devices.
     #[arg(long, value_name = "FILE")]
     pub btor2: Option<OutputPath>,
-    /// Write the proof of the single property, or with --same-as the proofs of all equal outputs, to this folder as
-    /// formulas (`*.cnf`) that any SAT solver can confirm to be unsatisfiable.
+    /// Write the proof to this folder as formulas (`*.cnf`) that any SAT solver can confirm to be unsatisfiable; each
+    /// of several properties has a folder in it. With --same-as, the proofs of all equal outputs.
     #[arg(long, value_name = "FOLDER")]
     pub certificate: Option<OutputPath>,
     /// Also write a proof of each formula (`*.drat`, DRAT) for a proof checker; made by `cadical`, which must be
@@ -52,6 +52,13 @@ pub struct VerifyArgs {
     /// Write the runs found to a test file, whose cases fail until the program is repaired: `rungc test FILE`.
     #[arg(long, value_name = "FILE")]
     pub write_test: Option<OutputPath>,
+    /// Write a report for an assessor (`rungc book requirements`): requirements, proofs, assumptions, gaps, runs, tests.
+    /// A page (.html), a document (.pdf) or JSON (.json).
+    #[arg(long, value_name = "FILE", conflicts_with = "same_as")]
+    pub report: Option<OutputPath>,
+    /// With --report: count the mutants (`rungc book mutants`) that the cases of each requirement notice.
+    #[arg(long, requires = "report")]
+    pub mutants: bool,
     /// Output file for the verdicts, in the format of --format; overwrites earlier ones. Default: standard output.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<OutputPath>,

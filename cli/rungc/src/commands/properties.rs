@@ -92,6 +92,8 @@ impl ExternalWrites {
 pub struct RequestedProperty {
     /// As it is written: `never Y000 & Y001`.
     pub text: String,
+    /// Identifier of the requirement that it belongs to.
+    pub requirement: Option<String>,
     /// Meaning.
     pub property: Property,
 }
@@ -126,8 +128,11 @@ impl Reader<'_> {
                 if let Some((_, why)) = self.senseless(&property) {
                     return Err(pointed(&option, text, &ParseError { at: 0, why }));
                 }
-                let text = format!("{name} {text}");
-                requested.push(RequestedProperty { text, property });
+                requested.push(RequestedProperty {
+                    text: format!("{name} {text}"),
+                    requirement: None,
+                    property,
+                });
             }
         }
         if let (true, Some(project)) = (requested.is_empty(), self.project()) {
@@ -322,7 +327,11 @@ impl Reader<'_> {
             Some(name) => format!("{name}: {text}"),
             None => text,
         };
-        Ok(RequestedProperty { text, property })
+        Ok(RequestedProperty {
+            text,
+            requirement: row.requirement.clone(),
+            property,
+        })
     }
 
     /// A property by its kind; else what is wrong, and with which part.

@@ -1,11 +1,11 @@
 //! `rungc test`.
 
 mod broken;
-mod coverage;
-mod files;
+pub(super) mod coverage;
+pub(super) mod files;
 mod github;
 mod junit;
-mod report;
+pub(super) mod report;
 mod review;
 mod sarif;
 mod verdicts;

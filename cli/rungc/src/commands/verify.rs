@@ -1,6 +1,7 @@
 //! `rungc verify`.
 
 mod engines;
+mod evidence;
 mod export;
 pub(super) mod report;
 mod same;
@@ -15,11 +16,14 @@ use super::{Context, Failure, Outcome, Result, put, read};
 use crate::args::VerifyArgs;
 use crate::output::{file, spare, write_file};
 use crate::report::Reporter;
+use crate::report::junit::{Case, properties};
+use evidence::Grounds;
+use rungc_evidence::Evidence;
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_sim::property::Condition;
 use rungc_syntax::{Diagnostic, Diagnostics, Span, codes};
-use rungc_verify::certificate::certificate;
+use rungc_verify::certificate::{Certificate, certificate};
 use rungc_verify::model::World;
 use rungc_verify::prove::{Decision, EFFORT, Options, Verdict, Why, decide};
 use rungc_verify::vacuous::dead_end;
@@ -52,6 +56,7 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     if let Some(path) = &args.write_test {
         spare(path, args.force)?;
     }
+    evidence::check(args)?;
     let subject = subject::one(&args.input, cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let read = match read(&subject, &mut reporter) {
@@ -92,16 +97,15 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
         })
         .collect();
     withdraw(&mut decided, &module, &options, &assumed);
-    let proof = decided.first().and_then(|(only, _)| only.proof.as_ref());
-    export::proofs(
+    let certificates = export::proofs(
         args,
-        proof.map(certificate),
+        proofs(&requested, &decided),
         options.time.unwrap_or(TIMEOUT),
         cx,
     )?;
     let runs = shown(&requested, &decided);
-    let differing = engines::replay(args.replay, std::slice::from_ref(&module), &runs, cx)?;
-    for (number, why) in differing {
+    let replayed = engines::replay(args.replay, std::slice::from_ref(&module), &runs, cx)?;
+    for (number, why) in replayed.differing {
         decided[number].0.verdict = Verdict::Undecided(why);
     }
     let results: Vec<report::Result> = requested
@@ -115,21 +119,68 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
             time: *time,
         })
         .collect();
-    publish(&subject, &read, &module, &results, &mut reporter)?;
-    let text = || report::human(&results, &module, &options, (&assumed, &external));
-    deliver(args, reporter, text, &report::summary(&results), cx)?;
-    if let Some(path) = &args.write_test {
-        let text = test_file::text(&subject.file, path, &module, &results, cx);
-        match text {
-            Some(text) => {
-                write_file(path, text.as_bytes(), args.force)?;
-                cx.note(&format!("       Wrote {}", path.display()));
-            }
-            None => cx.note("     No run was found, so no test is written"),
-        }
-    }
+    let grounds = Grounds {
+        args,
+        subject: &subject,
+        read: &read,
+        module: &module,
+        requested: &requested,
+        results: &results,
+        options: &options,
+        assumed: &assumed,
+        external: &external,
+        engines: &replayed.engines,
+        certificates: &certificates,
+    };
+    conclude(&grounds, reporter, cx)?;
     let outcomes = results.iter().map(report::Result::outcome);
     Ok(outcomes.max().unwrap_or(Outcome::Success))
+}
+
+/// Reports what was decided, and writes what is requested about it.
+fn conclude(
+    grounds: &Grounds,
+    mut reporter: Reporter,
+    cx: Context,
+) -> std::result::Result<(), Failure> {
+    let Grounds {
+        args,
+        subject,
+        read,
+        module,
+        results,
+        ..
+    } = *grounds;
+    let evidence = evidence::gather(grounds, cx)?;
+    evidence::write(args, &evidence, cx)?;
+    publish(subject, read, (module, results), evidence, &mut reporter)?;
+    let supposed = (grounds.assumed, grounds.external);
+    let text = || report::human(results, module, grounds.options, supposed);
+    deliver(args, reporter, text, &report::summary(results), cx)?;
+    let Some(path) = &args.write_test else {
+        return Ok(());
+    };
+    match test_file::text(&subject.file, path, module, results, cx) {
+        Some(text) => {
+            write_file(path, text.as_bytes(), args.force)?;
+            cx.note(&format!("       Wrote {}", path.display()));
+        }
+        None => cx.note("     No run was found, so no test is written"),
+    }
+    Ok(())
+}
+
+/// The certificate of each property, if it is proved, with its requirement.
+fn proofs<'a>(
+    requested: &'a [RequestedProperty],
+    decided: &[(Decision, Duration)],
+) -> Vec<(Option<&'a str>, Option<Certificate>)> {
+    let pairs = requested.iter().zip(decided);
+    let proofs = pairs.map(|(requested, (decision, _))| {
+        let files = decision.proof.as_ref().map(certificate);
+        (requested.requirement.as_deref(), files)
+    });
+    proofs.collect()
 }
 
 /// Takes proofs back if the program contradicts an assumption.
@@ -219,8 +270,8 @@ fn options(
 fn publish(
     subject: &Subject,
     read: &Read,
-    module: &Module,
-    results: &[report::Result],
+    (module, results): (&Module, &[report::Result]),
+    evidence: Evidence,
     reporter: &mut Reporter,
 ) -> std::result::Result<(), Failure> {
     let model = rungc_lower::compile::model(&read.program, &subject.options());
@@ -248,8 +299,14 @@ fn publish(
         findings.drawn = draw::networks(&read.program, model, &findings.diagnostics);
     }
     let file = subject.file.display().to_string();
-    let cases = results.iter().map(|result| result.case(&file, module));
-    Ok(reporter.add_verdicts(&findings, cases.collect())?)
+    let cases = results.iter().zip(&evidence.properties);
+    let cases = cases.map(|(result, verified)| Case {
+        properties: properties(verified),
+        ..result.case(&file, module)
+    });
+    let cases = cases.collect();
+    findings.verification = Some(evidence);
+    Ok(reporter.add_verdicts(&findings, cases)?)
 }
 
 /// Text of a report without verdicts.

@@ -155,14 +155,17 @@ fn is_samples(line: &str) -> bool {
 
 /// Returns true for the beginning of one of rungc's documents: the first of its keys, and one that comes with it.
 fn is_document(text: &str) -> bool {
-    const KEYS: [(&str, &str); 7] = [
+    const KEYS: [(&str, &str); 9] = [
         ("$schema", "\"name\": \"rungc\""),
+        // The name may come far below verdicts.
+        ("$schema", "\"verifications\": ["),
         ("comments", "\n  \"differs\": "),
         ("errors", "\n  \"notes\": "),
         ("file", "\n  \"warnings\": "),
         ("model", "\n  \"devices\": ["),
         ("passed", "\n  \"seconds\": "),
         ("programs", "\n      \"file\": "),
+        ("report", "\n  \"rungc\": "),
     ];
     let first = text.split('"').nth(1).unwrap_or_default();
     let mut keys = KEYS.iter();

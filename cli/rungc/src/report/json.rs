@@ -4,6 +4,7 @@ use super::Findings;
 use super::location::Location;
 use super::visible::to_json;
 use rungc_analysis::check::ports::Setup;
+use rungc_evidence::Evidence;
 use rungc_firmware::report::Report as Takes;
 use rungc_rt::comm::{Parity, Protocol};
 use rungc_syntax::{Diagnostic, Severity, codes};
@@ -37,6 +38,9 @@ pub struct File {
     ports: Vec<Port>,
     #[serde(skip_serializing_if = "Option::is_none")]
     report: Option<Takes>,
+    /// Verdicts, and what they rest on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    verification: Option<Evidence>,
 }
 
 /// Port of a report; values that are not constant are left out.
@@ -175,6 +179,7 @@ pub fn file(findings: &Findings) -> File {
             .collect(),
         ports: findings.ports.iter().map(Port::from).collect(),
         report: findings.takes.clone(),
+        verification: findings.verification.clone(),
     }
 }
 

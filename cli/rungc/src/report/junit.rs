@@ -5,6 +5,7 @@ use super::location::Location;
 use super::visible::visible_xml;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
+use rungc_evidence::{Evidence, Verified};
 use rungc_syntax::Severity;
 use std::io;
 use std::time::Duration;
@@ -15,8 +16,13 @@ type Xml = Writer<Vec<u8>>;
 pub struct Suite {
     /// The file.
     pub name: String,
+    /// Names and values of what all cases rest on.
+    pub properties: Properties,
     pub cases: Vec<Case>,
 }
+
+/// Names and values.
+pub type Properties = Vec<(&'static str, String)>;
 
 /// One case.
 pub struct Case {
@@ -25,6 +31,8 @@ pub struct Case {
     pub class: String,
     /// Duration.
     pub time: Duration,
+    /// Names and values of what it rests on.
+    pub properties: Properties,
     /// Reason why it did not pass.
     pub problem: Option<Problem>,
 }
@@ -50,6 +58,7 @@ pub fn of_errors(findings: &Findings) -> Suite {
         name,
         class: path.clone(),
         time: Duration::ZERO,
+        properties: Properties::new(),
         problem,
     };
     let mut cases: Vec<Case> = errors
@@ -67,7 +76,41 @@ pub fn of_errors(findings: &Findings) -> Suite {
     if cases.is_empty() {
         cases.push(case("no errors".to_string(), None));
     }
-    Suite { name: path, cases }
+    Suite {
+        name: path,
+        properties: Properties::new(),
+        cases,
+    }
+}
+
+/// Grounds of all verdicts about a program.
+pub fn grounds(evidence: &Evidence) -> Properties {
+    let subject = &evidence.subject;
+    let mut properties = vec![
+        ("rungc", evidence.rungc.clone()),
+        ("model", subject.model.clone()),
+        ("sha256", subject.sha256.clone()),
+    ];
+    let settings = evidence.settings.iter();
+    properties.extend(settings.map(|setting| ("setting", setting.to_string())));
+    let assumptions = evidence.assumptions.iter();
+    properties.extend(assumptions.map(|line| ("assumption", line.clone())));
+    properties
+}
+
+/// Grounds of a verdict.
+pub fn properties(verified: &Verified) -> Properties {
+    let mut properties = vec![("verdict", verified.verdict.to_string())];
+    let requirement = verified.requirement.iter();
+    properties.extend(requirement.map(|id| ("requirement", id.clone())));
+    properties.extend(verified.method().map(|method| ("method", method)));
+    let gaps = verified.gaps.iter();
+    properties.extend(gaps.map(|gap| ("not modelled", gap.to_string())));
+    let inputs = verified.inputs.iter();
+    properties.extend(inputs.map(|inputs| ("inputs", inputs.to_string())));
+    let run = verified.run.iter();
+    properties.extend(run.map(|run| ("run", run.to_string())));
+    properties
 }
 
 /// The XML of what `name` has run.
@@ -136,8 +179,29 @@ fn suite(xml: &mut Xml, suite: &Suite) -> io::Result<()> {
     if suite.cases.is_empty() {
         element.write_empty()?;
     } else {
-        element.write_inner_content(|xml| suite.cases.iter().try_for_each(|one| case(xml, one)))?;
+        element.write_inner_content(|xml| {
+            write_properties(xml, &suite.properties)?;
+            suite.cases.iter().try_for_each(|one| case(xml, one))
+        })?;
     }
+    Ok(())
+}
+
+fn write_properties(xml: &mut Xml, properties: &Properties) -> io::Result<()> {
+    if properties.is_empty() {
+        return Ok(());
+    }
+    xml.create_element("properties")
+        .write_inner_content(|xml| {
+            for (name, value) in properties {
+                let property = xml.create_element("property");
+                let property = property.with_attribute(("name", *name));
+                property
+                    .with_attribute(("value", &*clean(value)))
+                    .write_empty()?;
+            }
+            Ok(())
+        })?;
     Ok(())
 }
 
@@ -147,15 +211,19 @@ fn case(xml: &mut Xml, case: &Case) -> io::Result<()> {
         ("classname", &clean(&case.class)),
         ("time", &seconds(case.time)),
     ]);
-    let Some(problem) = &case.problem else {
+    if case.problem.is_none() && case.properties.is_empty() {
         element.write_empty()?;
         return Ok(());
-    };
-    let tag = match problem.is_error {
-        true => "error",
-        false => "failure",
-    };
+    }
     element.write_inner_content(|xml| {
+        write_properties(xml, &case.properties)?;
+        let Some(problem) = &case.problem else {
+            return Ok(());
+        };
+        let tag = match problem.is_error {
+            true => "error",
+            false => "failure",
+        };
         xml.create_element(tag)
             .with_attributes([
                 ("message", &*clean(&problem.message)),

@@ -14,6 +14,7 @@ pub use visible::{breaks_lines, to_json, visible, visible_line};
 use crate::args::{Format, Reporting};
 use crate::commands::{Context, Verbosity, counted, print_bytes};
 use rungc_analysis::check::ports::Setup;
+use rungc_evidence::Evidence;
 use rungc_firmware::report::Report as Takes;
 use rungc_lower::compile::Compiled;
 use rungc_syntax::{Diagnostic, Diagnostics, Fix, Label, Program, Severity, codes};
@@ -38,6 +39,8 @@ pub struct Findings<'a> {
     pub takes: Option<Takes>,
     /// The network that each diagnostic is about, drawn, if requested; empty if it is about none.
     pub drawn: Vec<String>,
+    /// Evidence that verdicts rest on, if properties were decided.
+    pub verification: Option<Evidence>,
 }
 
 /// Model and length of a program.
@@ -83,6 +86,7 @@ impl<'a> Findings<'a> {
             ports: Vec::new(),
             takes: None,
             drawn: Vec::new(),
+            verification: None,
         }
     }
 
@@ -108,6 +112,7 @@ impl<'a> Findings<'a> {
             ports: Vec::new(),
             takes: None,
             drawn: Vec::new(),
+            verification: None,
         }
     }
 
@@ -314,8 +319,10 @@ impl<'a> Reporter<'a> {
             return self.add(findings);
         }
         self.totals.add(findings.totals());
+        let evidence = findings.verification.as_ref();
         self.junit.push(junit::Suite {
             name: findings.path.display().to_string(),
+            properties: evidence.map_or_else(Vec::new, junit::grounds),
             cases,
         });
         Ok(())

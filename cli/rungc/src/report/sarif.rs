@@ -16,6 +16,8 @@ pub struct Log {
     used: BTreeSet<&'static str>,
     results: Vec<Value>,
     artifacts: Vec<Value>,
+    /// Verdicts of each program, and what they rest on.
+    verifications: Vec<Value>,
     /// True if anything was added.
     begun: bool,
 }
@@ -24,6 +26,9 @@ impl Log {
     /// Adds the findings about a file, which is in the list of artifacts if there can be `many`.
     pub fn add(&mut self, findings: &Findings, many: bool) {
         self.begun = true;
+        let evidence = findings.verification.as_ref();
+        self.verifications
+            .extend(evidence.map(|evidence| json!(evidence)));
         self.used
             .extend(findings.diagnostics.iter().map(|d| d.code));
         let items = findings.diagnostics.iter().map(|d| item(findings, d));
@@ -46,12 +51,21 @@ impl Log {
             .filter(|code| self.used.contains(code.id))
             .map(rule)
             .collect();
-        log(rules, self.results, self.artifacts)
+        let properties = match self.verifications.is_empty() {
+            true => None,
+            false => Some(json!({ "verifications": self.verifications })),
+        };
+        log(rules, self.results, self.artifacts, properties)
     }
 }
 
 /// A log of results as pretty-printed text.
-pub fn log(rules: Vec<Value>, results: Vec<Value>, artifacts: Vec<Value>) -> io::Result<String> {
+pub fn log(
+    rules: Vec<Value>,
+    results: Vec<Value>,
+    artifacts: Vec<Value>,
+    properties: Option<Value>,
+) -> io::Result<String> {
     let driver = json!({
         "name": "rungc",
         "informationUri": env!("CARGO_PKG_REPOSITORY"),
@@ -65,6 +79,9 @@ pub fn log(rules: Vec<Value>, results: Vec<Value>, artifacts: Vec<Value>) -> io:
     });
     if !artifacts.is_empty() {
         run["artifacts"] = artifacts.into();
+    }
+    if let Some(properties) = properties {
+        run["properties"] = properties;
     }
     let log = json!({
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",

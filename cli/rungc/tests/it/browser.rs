@@ -133,6 +133,48 @@ fn a_comparison_works_in_a_browser() {
 }
 
 #[test]
+fn a_report_works_in_a_browser() {
+    let program = "LD X000\nOR Y000\nANI X001\nOUT Y000\nEND\n";
+    let settings = "[project]\nprogram = \"motor.il\"\n[test]\nfiles = [\"t.plctest.toml\"]\n[[property]]\nid = \"R1\"\n\
+                    text = \"Stop stops.\"\nnever = \"X001 & Y000\"\n[[property]]\nid = \"R2\"\ntext = \"It stops by itself.\"\n\
+                    stays = \"Y000\"\nuntil = \"!X000\"\n[[property]]\nid = \"R2\"\nnever = \"Y000 & !X000\"\n";
+    let tests = "topic = \"t\"\nprogram = { file = \"motor.il\" }\n[[case]]\nname = \"a\"\nrequirement = \"R1\"\n\
+                 [[case.step]]\nset = { X000 = 1 }\nexpect = { Y000 = 1 }\n";
+    let files: &[(&str, &[u8])] = &[
+        ("motor.il", program.as_bytes()),
+        ("rungc.toml", settings.as_bytes()),
+        ("t.plctest.toml", tests.as_bytes()),
+    ];
+    let args = ["verify", "--replay", "interp", "--report", "report.html"];
+    let Some(report) = report(files, &args, "report.html", "report.js") else {
+        return;
+    };
+    let expected = json!({
+        "loaded_ms": null,
+        "titles": ["Requirements", "What is missing", "Assumptions", "Program and settings", "R1", "R2", "Tests"],
+        "matrix": [
+            "R1\tStop stops.\tproved\t1 passed\t4 of 9 (44 %)\tnot run",
+            "R2\tIt stops by itself.\t2 violated\tno test\tno test\tno test",
+        ],
+        "light": [],
+        "diagrams": 2,
+        "networks": [
+            "Network 1 after the last scan; thick: power",
+            "Network 1 after the last scan; thick: power",
+        ],
+        "power": "rgb(10, 110, 44)",
+        "followed": "#r2",
+        "dark": [],
+        "narrow": [],
+        "wider": false,
+        "pages": 3,
+        "requests": [],
+        "errors": [],
+    });
+    assert_eq!(report, expected);
+}
+
+#[test]
 fn coverage_is_drawn_on_the_ladder() {
     let tests = "model = \"fx3u\"\ntopic = \"t\"\nprogram = \"motor.il\"\n[[case]]\nname = \"a\"\n[[case.step]]\nset = { X000 = 1 }\nrun_ms = 200\n\
         [[case]]\nname = \"b\"\nprogram = \"steps.il\"\n[[case.step]]\nscans = 2\n";

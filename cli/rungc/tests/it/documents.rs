@@ -147,7 +147,7 @@ const EXAMPLES: &str = "examples/programs";
 const FLEET: &str = "examples/fleet";
 
 /// Files named by the commands of the pages.
-const DESK: [&str; 9] = [
+const DESK: [&str; 10] = [
     EXAMPLES,
     FLEET,
     "examples/oven",
@@ -156,6 +156,7 @@ const DESK: [&str; 9] = [
     "examples/feeder",
     "examples/blend",
     "examples/analog",
+    "examples/press",
     "examples/firmware/stm32f405",
 ];
 

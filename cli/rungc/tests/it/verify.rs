@@ -1,6 +1,7 @@
 //! Properties of programs, proved and violated.
 
 mod causes;
+mod evidence;
 mod peers;
 mod properties;
 

@@ -77,7 +77,8 @@ impl Sheets<'_> {
     }
 }
 
-/// Pen for a diagram. Places are in its pixels, from the upper left corner; colours are red, green and blue from 0 to 1.
+/// Pen for a diagram. Places are in its pixels, from the upper left corner; colours are red, green and blue, from 0 to
+/// 1.
 pub struct Pen<'p> {
     page: &'p mut Page,
     at: [f64; 2],

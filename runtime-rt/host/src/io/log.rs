@@ -59,7 +59,7 @@ impl Log {
 
     /// Adds a line, with the time.
     pub(super) fn add(&mut self, line: &str) {
-        let now = time(SystemTime::now());
+        let now = timestamp(SystemTime::now());
         let mut text = format!("{now} {line}\n");
         if self.left_out > 0 {
             let left_out = self.left_out;
@@ -87,7 +87,7 @@ fn write(path: &Path, lines: &Receiver<String>) {
         text.extend(lines.try_iter());
         let count = text.matches('\n').count() as u64;
         if lost > 0 {
-            let now = time(SystemTime::now());
+            let now = timestamp(SystemTime::now());
             text = format!(
                 "{now} ({lost} lines are missing here: the file could not be written)\n{text}"
             );
@@ -151,7 +151,7 @@ fn may_be_log(path: &Path) -> io::Result<bool> {
 }
 
 /// A time as `2026-11-23T22:57:01Z`.
-fn time(now: SystemTime) -> String {
+pub fn timestamp(now: SystemTime) -> String {
     let seconds = now.duration_since(UNIX_EPOCH).map_or(0, |d| d.as_secs());
     let (days, rest) = (seconds / 86_400, seconds % 86_400);
     let (year, month, day) = date(days);
@@ -209,13 +209,13 @@ mod tests {
 
     #[test]
     fn times_are_those_of_the_calendar() {
-        let at = |seconds| time(UNIX_EPOCH + Duration::from_secs(seconds));
+        let at = |seconds| timestamp(UNIX_EPOCH + Duration::from_secs(seconds));
         // By `date -u -d @SECONDS +%FT%TZ`.
         assert_eq!(at(0), "1970-01-01T00:00:00Z");
         assert_eq!(at(951_827_696), "2000-02-29T12:34:56Z");
         assert_eq!(at(1_795_474_621), "2026-11-23T22:57:01Z");
         assert_eq!(at(4_107_542_399), "2100-02-28T23:59:59Z");
         assert_eq!(at(4_107_542_400), "2100-03-01T00:00:00Z");
-        assert_eq!(time(UNIX_EPOCH - Duration::from_secs(1)), at(0));
+        assert_eq!(timestamp(UNIX_EPOCH - Duration::from_secs(1)), at(0));
     }
 }

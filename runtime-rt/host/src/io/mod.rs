@@ -50,6 +50,7 @@ pub use cycle::{Driver, ExchangeError, GiveRow, Io, Of, Opener, TakeRow, Termina
 pub use files::holds_numbers;
 pub use host::Environment;
 pub use left_out::LeftOut;
+pub use log::timestamp;
 pub use modbus::{Remote, Wire};
 #[cfg(not(target_os = "linux"))]
 pub use no_serial::SerialPort;

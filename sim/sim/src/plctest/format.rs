@@ -3,9 +3,7 @@
 use super::keys;
 use super::naming::Named;
 use super::program::{self, CaseProgram, RawProgram, Tested};
-use super::raw::{
-    Map, Near, RawCase, RawFile, RawNames, RawPlc, RawRow, RawScenario, Scalar,
-};
+use super::raw::{Map, Near, RawCase, RawFile, RawNames, RawPlc, RawRow, RawScenario, Scalar};
 use super::rules::RawOverTime;
 use super::serial::{self, PortId};
 use super::{Case, Check, OtherPlc, Rejects, Setting, Step, TestFile, Value};

@@ -5,7 +5,7 @@ use super::report::to_document;
 use crate::args::{TestArgs, TestFormat};
 use crate::commands::Failure;
 use crate::output;
-use crate::report::junit::{Case, Problem, Suite, render};
+use crate::report::junit::{Case, Problem, Properties, Suite, render};
 use crate::report::location::Location;
 use crate::report::{github, sarif};
 use rungc_sim::LoadError;
@@ -76,6 +76,7 @@ fn junit(mistakes: &[Mistake]) -> io::Result<String> {
     let suites: Vec<_> = of_one_file
         .map(|mistakes| Suite {
             name: mistakes[0].file.display().to_string(),
+            properties: Properties::new(),
             cases: mistakes.iter().map(case).collect(),
         })
         .collect();
@@ -91,6 +92,7 @@ fn case(mistake: &Mistake) -> Case {
         name: place.clone(),
         class,
         time: Duration::ZERO,
+        properties: Properties::new(),
         problem: Some(Problem {
             is_error: true,
             kind: KIND,
@@ -117,7 +119,7 @@ fn sarif(mistakes: &[Mistake]) -> io::Result<String> {
             "locations": [{ "physicalLocation": place }],
         })
     });
-    sarif::log(vec![rule], items.collect(), Vec::new())
+    sarif::log(vec![rule], items.collect(), Vec::new(), None)
 }
 
 fn annotation(mistake: &Mistake) -> String {

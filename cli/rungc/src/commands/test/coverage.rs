@@ -22,7 +22,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 /// Runs the cases while what they execute is noted, and reports that, or what became of mutants.
-pub fn run(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context) -> Result {
+pub(super) fn run(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context) -> Result {
     let start = Instant::now();
     let option = if args.mutants {
         "--mutants"
@@ -113,7 +113,7 @@ fn keep(mutants: &mut Vec<Mutant>, program: &Covered, shard: Shard) {
 const EFFORT: [u64; 2] = [10_000, 300];
 
 /// Finds the mutants among those that no case has noticed of which no run changes an output.
-fn tell_equivalent(program: &Covered, mutants: &[Mutant], fates: &mut [Fate]) {
+pub fn tell_equivalent(program: &Covered, mutants: &[Mutant], fates: &mut [Fate]) {
     let survived = fates.iter().filter(|fate| **fate == Fate::Survived).count();
     let Some(old) = module(program, &program.program).filter(|_| survived > 0) else {
         return;

@@ -1,7 +1,7 @@
 //! Results of tests as JUnit XML: a suite for each file; a case's class is its file and engine.
 
 use super::report::{Results, kind, message};
-use crate::report::junit::{Case, Problem, Suite, render_timed};
+use crate::report::junit::{Case, Problem, Properties, Suite, render_timed};
 use rungc_sim::plctest::{Failure, Outcome};
 use std::io;
 
@@ -19,6 +19,7 @@ fn suite(results: &Results, number: usize) -> Suite {
     let outcomes = outcomes.filter(|outcome| outcome.id.file == number);
     Suite {
         name: results.suite.files()[number].name.clone(),
+        properties: Properties::new(),
         cases: outcomes.map(|outcome| case(results, outcome)).collect(),
     }
 }
@@ -32,10 +33,13 @@ fn case(results: &Results, outcome: &Outcome) -> Case {
         message: message(failure),
         text: outcome.describe(results.suite),
     });
+    let case = &file.cases[outcome.id.case];
+    let requirements = case.requirements.iter();
     Case {
-        name: file.cases[outcome.id.case].name.clone(),
+        name: case.name.clone(),
         class: format!("{} [{}]", file.name, outcome.engine),
         time: outcome.elapsed,
+        properties: requirements.map(|id| ("requirement", id.clone())).collect(),
         problem,
     }
 }

@@ -68,6 +68,8 @@ struct Case<'a> {
     seconds: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     failure: Option<Why<'a>>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    requirements: &'a [String],
     #[serde(skip_serializing_if = "str::is_empty")]
     source: &'a str,
     #[serde(skip_serializing_if = "str::is_empty")]
@@ -138,6 +140,7 @@ fn case<'a>(suite: &'a Suite, outcome: &'a Outcome) -> Case<'a> {
         cached: outcome.cached,
         seconds: seconds(outcome.elapsed),
         failure: outcome.failure.as_ref().map(why),
+        requirements: &case.requirements,
         source: &case.source,
         note: &case.note,
     }
@@ -192,7 +195,7 @@ pub(super) fn kind(failure: &Failure) -> &'static str {
     }
 }
 
-pub(super) fn message(failure: &Failure) -> String {
+pub fn message(failure: &Failure) -> String {
     failure.to_string().trim_end_matches(';').to_string()
 }
 

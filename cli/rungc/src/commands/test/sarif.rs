@@ -14,7 +14,7 @@ pub fn sarif(results: &Results) -> io::Result<String> {
     let used: BTreeSet<_> = kinds.collect();
     let rules = used.into_iter().map(rule).collect();
     let items = failed().map(|outcome| item(results, outcome)).collect();
-    sarif::log(rules, items, Vec::new())
+    sarif::log(rules, items, Vec::new(), None)
 }
 
 /// Description of a kind of failure, for readers of the log alone.

@@ -23,8 +23,16 @@ pub struct Shown<'a> {
     pub trace: &'a Trace,
 }
 
-/// Replays runs on the engines chosen, if there are others than the interpreter; what the first engine that does
-/// otherwise makes of a verdict, for each run that differs.
+/// Result of replaying runs.
+pub struct Replayed {
+    /// Names of the engines that have run them.
+    pub engines: Vec<&'static str>,
+    /// For each run that one of them does not confirm, by the number of the property or output: the reason.
+    pub differing: BTreeMap<usize, Why>,
+}
+
+/// Replays runs on the engines chosen, if there are others than the interpreter. The first engine that does otherwise
+/// makes the difference.
 ///
 /// # Errors
 ///
@@ -34,12 +42,16 @@ pub fn replay(
     modules: &[Module],
     runs: &[Shown],
     cx: Context,
-) -> Result<BTreeMap<usize, Why>, Failure> {
+) -> Result<Replayed, Failure> {
     let mut differing = BTreeMap::new();
+    let mut ran = vec![EngineKind::Interp.name()];
     let kinds = engines(choice.unwrap_or(EngineChoice::Interp)).into_iter();
     let kinds: Vec<EngineKind> = kinds.filter(|kind| *kind != EngineKind::Interp).collect();
     if runs.is_empty() || kinds.is_empty() {
-        return Ok(differing);
+        return Ok(Replayed {
+            engines: ran,
+            differing,
+        });
     }
     let folder = BuildFolder::take()?;
     for kind in kinds {
@@ -59,6 +71,7 @@ pub fn replay(
             }
             (Err(error), _) => return Err(Failure::Because(error.to_string())),
         };
+        ran.push(kind.name());
         for run in runs {
             let module = (run.program, &modules[run.program]);
             if let Err(why) = compare(engine.as_mut(), module, &run.devices, run.trace) {
@@ -69,7 +82,10 @@ pub fn replay(
             }
         }
     }
-    Ok(differing)
+    Ok(Replayed {
+        engines: ran,
+        differing,
+    })
 }
 
 /// Returns true if a tool is missing, as opposed to a fault of the emitted code.

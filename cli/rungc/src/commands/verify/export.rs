@@ -3,12 +3,12 @@
 use crate::args::VerifyArgs;
 use crate::commands::properties::RequestedProperty;
 use crate::commands::{Context, Failure, counted};
-use crate::output::{Kind, make_folder, permit, write_file};
+use crate::output::{Kind, at, make_folder, permit, write_file};
 use rungc_ir::Module;
 use rungc_verify::certificate::Certificate;
 use rungc_verify::prove::{Options, system};
 use rungc_verify::{aiger, btor2};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
@@ -44,9 +44,6 @@ pub fn questions(
         let text = btor2::text(&system, &encoder.gaps, &requested.text);
         write(path, text.as_bytes())?;
     }
-    if args.certificate.is_some() {
-        only("--certificate")?;
-    }
     can_prove(args)
 }
 
@@ -58,39 +55,90 @@ pub fn can_prove(args: &VerifyArgs) -> std::result::Result<(), Failure> {
     }
 }
 
-/// Writes proofs into a folder, if requested; `None`: nothing was proved.
+/// Files of a proof as they were written: path, contents, and the command that checks them.
+pub type Written = Vec<(PathBuf, Vec<u8>, String)>;
+
+/// Writes proofs into folders, if requested: those of several properties into one folder each, `1` or `1-R1` by the
+/// number of the property and its requirement. `None` stands for what was not proved. Returns what was written of each.
 ///
 /// # Errors
 ///
 /// A file cannot be written, or there is no proof of a formula because `cadical` is missing or fails.
 pub fn proofs(
     args: &VerifyArgs,
-    files: Option<Certificate>,
+    proofs: Vec<(Option<&str>, Option<Certificate>)>,
     time: Duration,
     cx: Context,
-) -> std::result::Result<(), Failure> {
+) -> std::result::Result<Vec<Written>, Failure> {
     let Some(folder) = &args.certificate else {
-        return Ok(());
+        return Ok(vec![Vec::new(); proofs.len()]);
     };
-    let Some(files) = files else {
+    if proofs.iter().all(|(_, files)| files.is_none()) {
         cx.note("     Nothing was proved, so no certificate is written");
-        return Ok(());
-    };
-    make_folder(folder)?;
-    for (name, text) in &files {
-        let path = folder.join(name);
-        write_file(&path, text.as_bytes(), args.force)?;
-        if args.drat {
-            prove(&path, time, args.force)?;
-        }
+        return Ok(vec![Vec::new(); proofs.len()]);
     }
-    let count = counted(files.len(), "formula");
+    let is_single = proofs.len() == 1;
+    let (mut all, mut formulas) = (Vec::new(), 0);
+    for (number, (requirement, files)) in (1..).zip(proofs) {
+        let files = files.unwrap_or_default();
+        formulas += files.len();
+        let own = match is_single {
+            true => folder.to_path_buf(),
+            false => folder.join(part(number, requirement)),
+        };
+        all.push(proof(args, &own, files, time)?);
+    }
+    let count = counted(formulas, "formula");
     let proofs = if args.drat { " with proofs" } else { "" };
     cx.note(&format!(
         "       Wrote {count}{proofs} into {}",
         folder.display()
     ));
-    Ok(())
+    Ok(all)
+}
+
+/// Folder of a property among several.
+fn part(number: usize, requirement: Option<&str>) -> String {
+    let plain = |c: char| match c.is_ascii_alphanumeric() || c == '-' {
+        true => c,
+        false => '_',
+    };
+    match requirement {
+        Some(id) => format!("{number}-{}", id.chars().map(plain).collect::<String>()),
+        None => number.to_string(),
+    }
+}
+
+/// Writes the formulas of a proof into a folder.
+fn proof(
+    args: &VerifyArgs,
+    folder: &Path,
+    files: Certificate,
+    time: Duration,
+) -> std::result::Result<Written, Failure> {
+    let mut written = Vec::new();
+    if !files.is_empty() {
+        make_folder(folder)?;
+    }
+    for (name, text) in files {
+        let path = folder.join(name);
+        write_file(&path, text.as_bytes(), args.force)?;
+        let shown = slashed(&path);
+        written.push((path.clone(), text.into_bytes(), format!("{SOLVER} {shown}")));
+        if args.drat {
+            prove(&path, time, args.force)?;
+            let proof = path.with_extension("drat");
+            let bytes = std::fs::read(&proof).map_err(|error| at(&proof, error))?;
+            let check = format!("drat-trim {shown} {}", slashed(&proof));
+            written.push((proof, bytes, check));
+        }
+    }
+    Ok(written)
+}
+
+/// A path with slashes, as documents have it.
+pub fn slashed(path: &Path) -> String {
+    path.display().to_string().replace('\\', "/")
 }
 
 /// The solver that writes proofs.

@@ -2,7 +2,7 @@
 
 use crate::commands::properties::ExternalWrites;
 use crate::commands::{Outcome, counted};
-use crate::report::junit::{Case, Problem};
+use crate::report::junit::{Case, Problem, Properties};
 use rungc_ir::Module;
 use rungc_sim::property::Property;
 use rungc_syntax::{DeviceClass, codes};
@@ -37,7 +37,7 @@ impl Result<'_> {
     }
 
     /// The verdict in a word.
-    fn word(&self) -> &'static str {
+    pub fn word(&self) -> &'static str {
         match (&self.decision.verdict, self.property.is_wanted()) {
             (Verdict::Undecided(Why::Vacuous { .. }), _) => "vacuous",
             (Verdict::Undecided(_), _) => "not decided",
@@ -69,6 +69,7 @@ impl Result<'_> {
             name: self.requested.to_string(),
             class: file.to_string(),
             time: self.time,
+            properties: Properties::new(),
             problem,
         }
     }
@@ -87,20 +88,27 @@ impl Result<'_> {
                 "            nothing in the program writes {names}: taken as inputs"
             );
         }
-        for by in self.external.sources() {
+        for (by, keys) in self.outside(module) {
+            let names = list(&keys);
+            let _ = writeln!(
+                text,
+                "            written from outside (`{by}`): {names}: taken as inputs"
+            );
+        }
+    }
+
+    /// Devices that something other than the program writes and that the property depends on, by what names them.
+    pub fn outside(&self, module: &Module) -> Vec<(&'static str, Vec<Key>)> {
+        let sources = self.external.sources().into_iter();
+        let named = sources.map(|by| {
             let named_by = |key: &&Key| {
                 let device = device_of(**key);
                 device.and_then(|device| self.external.source(module.model, device)) == Some(by)
             };
             let free = self.decision.free.iter().filter(named_by).copied();
-            let names = list(&free.collect::<Vec<_>>());
-            if !names.is_empty() {
-                let _ = writeln!(
-                    text,
-                    "            written from outside (`{by}`): {names}: taken as inputs"
-                );
-            }
-        }
+            (by, free.collect::<Vec<_>>())
+        });
+        named.filter(|(_, keys)| !names(keys).is_empty()).collect()
     }
 
     /// The verdict as a diagnostic says it.
@@ -265,18 +273,29 @@ fn untouched(external: &ExternalWrites) -> String {
     )
 }
 
-/// Names of the devices of memory.
-fn list(keys: &[Key]) -> String {
+/// Names of the devices of memory, each once.
+pub fn names(keys: &[Key]) -> Vec<String> {
     let found = keys.iter().filter_map(|&key| device_of(key));
     // A timer is a value and a contact.
-    devices(&Vec::from_iter(BTreeSet::from_iter(found)))
+    let found = BTreeSet::from_iter(found).into_iter();
+    found
+        .map(|(class, n)| class.number(n).to_string())
+        .collect()
 }
 
-/// Names of devices.
+/// Names of the devices of memory, or of some and the number of others.
+fn list(keys: &[Key]) -> String {
+    shortened(&names(keys))
+}
+
+/// Names of devices, or of some and the number of others.
 pub fn devices(of: &[(DeviceClass, u32)]) -> String {
-    const SHOWN: usize = 8;
     let names = of.iter().map(|(class, n)| class.number(*n).to_string());
-    let names: Vec<String> = names.collect();
+    shortened(&names.collect::<Vec<_>>())
+}
+
+fn shortened(names: &[String]) -> String {
+    const SHOWN: usize = 8;
     match names.len() > SHOWN {
         true => format!(
             "{} and {} more",

@@ -7,7 +7,7 @@ use crate::commands::check::deep::writes;
 use crate::commands::properties::{Reader, module};
 use crate::commands::subject::{self, Subject};
 use crate::commands::{Context, Failure, Outcome, Result, counted, read};
-use crate::report::junit::{Case, Problem};
+use crate::report::junit::{Case, Problem, Properties};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::Read;
 use rungc_ir::Module;
@@ -76,10 +76,11 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     withdraw(&mut compared, &modules, &options, &assumed);
     let proved = compared.outputs.iter().any(is_same);
     let proofs = proved.then(|| certificate::of_comparison(&compared));
-    export::proofs(args, proofs, options.time.unwrap_or(super::TIMEOUT), cx)?;
+    let time = options.time.unwrap_or(super::TIMEOUT);
+    export::proofs(args, vec![(None, proofs)], time, cx)?;
     let names = [&before, &subject].map(|subject| subject.file.display().to_string());
     let shown = shown(&compared);
-    for (number, why) in engines::replay(args.replay, &modules, &shown, cx)? {
+    for (number, why) in engines::replay(args.replay, &modules, &shown, cx)?.differing {
         compared.outputs[number].verdict = Verdict::Undecided(why);
     }
     let outputs = compared.outputs.iter();
@@ -227,6 +228,7 @@ fn case(output: &Output, file: &str, names: &[String; 2], module: &Module) -> Ca
         name: format!("{name} is the same"),
         class: file.to_string(),
         time: output.time,
+        properties: Properties::new(),
         problem,
     }
 }

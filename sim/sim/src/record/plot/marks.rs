@@ -47,14 +47,14 @@ pub enum Mark {
         from: [f64; 2],
         /// End.
         to: [f64; 2],
-        /// How it is drawn.
+        /// Style of the line.
         stroke: Stroke,
     },
     /// A line through several points.
     Curve {
         /// The points.
         points: Vec<[f64; 2]>,
-        /// How it is drawn.
+        /// Style of the line.
         stroke: Stroke,
         /// True if its corners are round.
         is_round: bool,
@@ -72,7 +72,7 @@ pub enum Mark {
         at: [f64; 2],
         /// Its width and height.
         size: [f64; 2],
-        /// How it is drawn.
+        /// Style of the line.
         stroke: Stroke,
     },
     /// A line of text.
