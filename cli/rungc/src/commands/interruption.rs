@@ -57,7 +57,7 @@ fn watch(interrupted: impl Fn() + Send + 'static) {
         return;
     };
     let wait = move || signals.forever().for_each(|_| interrupted());
-    // Without the thread, the handlers would take signals that nobody notices: the process could not be ended.
+    // Without the thread, the handlers would take signals without an effect: the process could not be ended.
     if let Err(error) = thread::Builder::new().name("signals".into()).spawn(wait) {
         super::eprint_line(&format!("rungc: {error}"));
         process::exit(2);

@@ -85,7 +85,8 @@ impl Serving {
         stream
     }
 
-    /// Asks it to end, as Ctrl-C does, which a caller in the background may ignore. Returns what it has printed; ports are named after their order.
+    /// Asks it to end, as Ctrl-C does, which a caller in the background may ignore. Returns what it has printed; ports
+    /// are named after their order.
     fn interrupt(mut self) -> Output {
         let pid = self.child.id().to_string();
         let kill = Command::new("kill").args(["-TERM", &pid]).status().unwrap();
@@ -145,7 +146,7 @@ fn row(table: &str, begin: &[&str]) -> Vec<String> {
     cells.map(str::to_string).collect()
 }
 
-/// A client is told nothing else by its protocol than that the request is carried out.
+/// The answer of the protocol is that the request is carried out.
 #[test]
 fn writes_without_effect_are_reported_once() {
     let folder = folder(&[
