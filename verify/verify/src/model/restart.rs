@@ -2,6 +2,7 @@
 //! private memory of the scan, and, with M8033, all devices. Programs without these are not asked: whatever happens
 //! after STOP happens after power-on, too, where latched devices begin with any value.
 
+use super::shared::Signature;
 use super::{CounterPart, Encoder, Input, Key, TimerPart, device_of};
 use crate::aig::Lit;
 use crate::bits::{Bits, constant};
@@ -26,6 +27,10 @@ fn is_of_scan(key: Key) -> bool {
 impl Encoder<'_> {
     /// Returns true if RUN may begin otherwise after STOP than at power-on.
     pub(super) fn remembers_stop(&self) -> bool {
+        // Two programs begin RUN together, and with what each of them has latched.
+        if self.is_compared() {
+            return true;
+        }
         let keys = self.before.keys().copied();
         let mut changed = keys.filter(|&key| self.written.contains(&key) || self.is_free(key));
         changed.any(|key| match key {
@@ -81,12 +86,14 @@ impl Encoder<'_> {
         }
         let mut changed = self.begin_writes();
         changed.insert(Key::Now);
-        let other = self.fresh(1, AFTER_STOP)[0];
+        let answer = Signature::Answer(AFTER_STOP.to_string());
+        let other = self.applied(1, AFTER_STOP, answer, &[])[0];
         self.replay_assumptions.push(!other);
         let other = self.aig.and(restart, other);
         for key in changed.difference(open) {
             if let Some(bits) = self.state.get(key).cloned() {
-                let fresh = self.fresh(bits.len(), AFTER_STOP);
+                let signature = Signature::Call(AFTER_STOP.to_string(), *key);
+                let fresh = self.applied(bits.len(), AFTER_STOP, signature, &[]);
                 let value = self.aig.select(other, &fresh, &bits);
                 self.state.insert(*key, value);
             }

@@ -16,6 +16,19 @@ fn with_latched(list: &str) -> Module {
 }
 
 #[test]
+fn both_programs_go_through_stop_together() {
+    // D600 is latched: after STOP it shows what the pulse of power-on has hidden.
+    let old = "LD M8002\nMOV D600 D0\nLD X000\nMOV K1 D600\nLD= D0 K1\nOUT Y000\nEND\n";
+    let new = old.replace("MOV K1 D600", "MOV K2 D600");
+    let compared = compare(&module(old), &module(&new), &Options::default());
+    let Verdict::Found(trace) = &compared.outputs[0].verdict else {
+        panic!("{compared:?}");
+    };
+    assert!(trace.scans.iter().any(|scan| scan.restart));
+    assert!(compare(&module(old), &module(old), &Options::default()).is_proved());
+}
+
+#[test]
 fn other_latched_devices_are_compared_and_named() {
     const LIST: &str = "LD X000\nMOV K5 D0\nLD= D0 K5\nOUT Y000\nLD X001\nOUT Y001\nEND\n";
     let compared = compare(&module(LIST), &with_latched(LIST), &Options::default());

@@ -281,6 +281,10 @@ fn text(compared: &Compared, names: &[String; 2], module: &Module, supposed: &[S
         for line in supposed {
             let _ = writeln!(text, "  - {line}");
         }
+        let _ = writeln!(
+            text,
+            "  - both begin with the same in latched devices of both, and are not switched off and on again"
+        );
         let calls: BTreeSet<&str> = compared
             .functions
             .iter()
