@@ -36,8 +36,8 @@ impl RtFn {
         })
     }
 
-    /// The operands that it writes, by number, if it is known to write no others; `None`: perhaps any of them. Terminals
-    /// at which pulses are sent are not written, nor are those that REF shows.
+    /// The operands that it writes, by number, if it is known to write no others; `None`: perhaps any of them.
+    /// Terminals at which pulses are sent are not written.
     pub fn written_operands(self) -> Option<&'static [usize]> {
         match self {
             RtFn::Plsy | RtFn::Plsr | RtFn::Pwm | RtFn::StopPulses | RtFn::Zrn => Some(&[]),

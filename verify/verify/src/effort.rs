@@ -1,4 +1,4 @@
-//! Limits of searches: steps, which count the same on every machine and under any load, and for people a time.
+//! Limits of searches: steps, which count the same on every machine and under any load, and perhaps a time.
 
 use std::cell::Cell;
 use std::rc::Rc;

@@ -3,7 +3,7 @@
 
 use crate::aig::{Lit, Node};
 use crate::effort::Limit;
-use crate::model::{Encoder, Input};
+use crate::model::{AFTER_STOP, Encoder, Input};
 use crate::property::condition;
 use crate::prove::Options;
 use crate::random::{EVALUATED, Random, part_of};
@@ -58,7 +58,10 @@ pub fn dead_end(module: &Module, options: &Options) -> Option<DeadEnd> {
     let lits: Vec<Lit> = assumed.iter().map(|(_, lit)| *lit).collect();
     let kept = encoder.aig.all(lits);
     // What is not modelled could lead anywhere, also where no real run does.
-    let is_gap = |(_, input): &(Lit, Input)| matches!(input, Input::Gap(_));
+    let is_gap = |(_, input): &(Lit, Input)| match input {
+        Input::Gap(number) => encoder.gaps[*number].what != AFTER_STOP,
+        _ => false,
+    };
     if encoder.system(!kept).sliced().inputs.iter().any(is_gap) {
         return None;
     }
@@ -90,7 +93,12 @@ impl<'s> Search<'s> {
         let limit = Limit::new(LIMIT, None);
         let mut solver = Solver::new(&limit);
         let of = |lit: Lit, solver: &mut Solver| solver.lit(&system.aig, lit);
+        // STOP would put an end to any run.
+        let restarts = system.inputs.iter();
+        let restarts = restarts.filter(|(_, input)| *input == Input::Restart);
+        let running: Vec<Lit> = restarts.map(|(restart, _)| !*restart).collect();
         let always = system.constraints.iter().chain(&system.replay_assumptions);
+        let always = always.chain(&running);
         Search {
             scan_ms,
             assumed: assumed

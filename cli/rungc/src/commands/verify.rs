@@ -29,8 +29,11 @@ use rungc_verify::prove::{Decision, EFFORT, Options, Verdict, Why, decide};
 use rungc_verify::vacuous::dead_end;
 use std::time::{Duration, Instant};
 
-/// Time limit of a proof by another solver, if the search has none.
-const TIMEOUT: Duration = Duration::from_secs(60);
+/// Time limit of a proof by another solver.
+fn solver_time(options: &Options) -> Duration {
+    const USUAL: Duration = Duration::from_secs(60);
+    options.time.unwrap_or(USUAL)
+}
 
 /// Message for a program without a property; those of a project without a program are about none.
 fn no_property(subject: &Subject) -> String {
@@ -100,7 +103,7 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     let certificates = export::proofs(
         args,
         proofs(&requested, &decided),
-        options.time.unwrap_or(TIMEOUT),
+        solver_time(&options),
         cx,
     )?;
     let runs = shown(&requested, &decided);

@@ -361,13 +361,7 @@ fault = \"M500\"
     std::fs::remove_file(folder.path().join("rungc.toml")).unwrap();
     let output = rungc(
         folder.path(),
-        &[
-            "verify",
-            "line.il",
-            "--cleared",
-            "--never",
-            "Y000 | Y001",
-        ],
+        &["verify", "line.il", "--cleared", "--never", "Y000 | Y001"],
     );
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stdout));
 }

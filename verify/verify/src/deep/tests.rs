@@ -29,7 +29,7 @@ fn contacts(random: &mut Random) -> String {
 /// The instruction that NeverActs is judged by.
 const MOVE: &str = "MOV K1 D20\n";
 
-/// Rungs of each kind of finding, each with a device of its own, in any order.
+/// Rungs of each kind of finding, each with its own device, in any order.
 fn program(random: &mut Random) -> Vec<String> {
     let mut rungs: Vec<String> = Vec::new();
     for number in 0..3 {

@@ -10,7 +10,7 @@ pub(super) struct Engine {
     assumed: Vec<SatLit>,
 }
 
-/// Counts the steps of a solver: a number each time that it asks whether to go on.
+/// Counts the steps of a solver: a number each time that it asks whether to continue.
 struct Counter(Limit);
 
 /// Steps from one such question to the next.

@@ -76,7 +76,7 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     withdraw(&mut compared, &modules, &options, &assumed);
     let proved = compared.outputs.iter().any(is_same);
     let proofs = proved.then(|| certificate::of_comparison(&compared));
-    let time = options.time.unwrap_or(super::TIMEOUT);
+    let time = super::solver_time(&options);
     export::proofs(args, vec![(None, proofs)], time, cx)?;
     let names = [&before, &subject].map(|subject| subject.file.display().to_string());
     let shown = shown(&compared);
