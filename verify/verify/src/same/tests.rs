@@ -40,7 +40,7 @@ fn other_latched_devices_are_compared_and_named() {
     let Verdict::Found(trace) = &y0.verdict else {
         panic!("{y0:?}");
     };
-    assert_eq!(trace.start.values().copied().collect::<Vec<_>>(), [5]);
+    assert!(trace.start.values().any(|value| *value == 5));
     assert_eq!(y1.verdict, Verdict::Proved);
     // Where every scan writes it first, that does not matter.
     let first = LIST.replace("LD X000\nMOV K5 D0", "LD M8000\nMOV K4X000 D0");
