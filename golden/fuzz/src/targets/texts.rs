@@ -13,7 +13,7 @@ fn fleet(text: &str) {
     let _ = Fleet::parse(Path::new("fleet.toml"), text);
 }
 
-/// A condition; every word that begins with a small letter stands for two devices, as comments may.
+/// A condition, which is read again as it is shown; every word that begins with a small letter stands for two devices, as comments may.
 fn condition(text: &str) {
     let names = |word: &str| match word.starts_with(|c: char| c.is_lowercase()) {
         true => ["Y000", "D5"]
@@ -22,8 +22,13 @@ fn condition(text: &str) {
             .collect(),
         false => Vec::new(),
     };
-    if let Err(mistake) = property::parse(text, &names) {
-        assert!(text.get(mistake.at..).is_some(), "{mistake:?}");
+    match property::parse(text, &names) {
+        Ok(condition) => {
+            let shown = condition.to_string();
+            let again = property::parse(&shown, &|_| Vec::new());
+            assert_eq!(again.as_ref(), Ok(&condition), "{shown}");
+        }
+        Err(mistake) => assert!(text.get(mistake.at..).is_some(), "{mistake:?}"),
     }
 }
 
