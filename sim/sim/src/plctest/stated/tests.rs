@@ -34,18 +34,18 @@ fn run(lines: &str) -> String {
 
 #[test]
 fn conditions_are_texts_in_rules_over_time() {
-    insta::assert_snapshot!(outcome("never = \"Y000 & D0 > 5\""), @"");
-    insta::assert_snapshot!(outcome("never = [\"Y000 & X001\", { Y000 = 1, X000 = 1 }]"), @"");
-    insta::assert_snapshot!(outcome("always = '!\"main pump\" | Scans > 3'"), @"");
-    insta::assert_snapshot!(outcome("always = \"!(Y000 for 100ms)\""), @"");
-    insta::assert_snapshot!(outcome("whenever = [{ when = \"rises(X000)\", then = \"Y000\", within = \"10ms\" }]"), @"");
-    insta::assert_snapshot!(outcome("whenever = [{ when = \"X000\", then = \"Y000\" }]"), @"");
-    insta::assert_snapshot!(outcome("stays = [{ holds = \"Y000\", until = \"D0 > 100\" }]"), @"");
-    insta::assert_snapshot!(outcome("stays = [{ holds = \"Y000\", until = \"X001\" }]"), @"");
-    insta::assert_snapshot!(outcome("reachable = \"Y000 & X001\""), @"");
-    insta::assert_snapshot!(outcome("reachable = [\"Y000\", \"D0.3 & D0.0\"]"), @"");
-    insta::assert_snapshot!(outcome("always = \"Y000 before X000\""), @"");
-    insta::assert_snapshot!(run("[[case.step]]\nset = { X000 = 1 }\nscans = 2\nnever = \"Y000\""), @"");
+    insta::assert_snapshot!(outcome("never = \"Y000 & D0 > 5\""), @"step 2 (line 6): never: `Y000 & D0 > 5` at 60 ms: Y000 = 1, D0 = 6");
+    insta::assert_snapshot!(outcome("never = [\"Y000 & X001\", { Y000 = 1, X000 = 1 }]"), @"step 2 (line 6): never: X000 = 1, Y000 = 1 at 40 ms");
+    insta::assert_snapshot!(outcome("always = '!\"main pump\" | Scans > 3'"), @"passed");
+    insta::assert_snapshot!(outcome("always = \"!(Y000 for 100ms)\""), @"step 2 (line 6): always: `!(Y000 for 100ms)` at 140 ms: Y000 = 1");
+    insta::assert_snapshot!(outcome("whenever = [{ when = \"rises(X000)\", then = \"Y000\", within = \"10ms\" }]"), @"passed");
+    insta::assert_snapshot!(outcome("whenever = [{ when = \"X000\", then = \"Y000\" }]"), @"step 2 (line 6): whenever: `whenever X000 then Y000` at 30 ms: X000 = 1, Y000 = 0");
+    insta::assert_snapshot!(outcome("stays = [{ holds = \"Y000\", until = \"D0 > 100\" }]"), @"step 3 (line 6): stays: `stays Y000 until D0 > 100` at 210 ms: Y000 = 0, D0 = 21");
+    insta::assert_snapshot!(outcome("stays = [{ holds = \"Y000\", until = \"X001\" }]"), @"passed");
+    insta::assert_snapshot!(outcome("reachable = \"Y000 & X001\""), @"step 3 (line 6): reachable: `Y000 & X001` after no scan");
+    insta::assert_snapshot!(outcome("reachable = [\"Y000\", \"D0.3 & D0.0\"]"), @"passed");
+    insta::assert_snapshot!(outcome("always = \"Y000 before X000\""), @"step 2 (line 6): always: `Y000 before X000` at 30 ms: Y000 = 0, X000 = 1");
+    insta::assert_snapshot!(run("[[case.step]]\nset = { X000 = 1 }\nscans = 2\nnever = \"Y000\""), @"step 1 (line 9): never: `Y000` at 20 ms: Y000 = 1");
 }
 
 /// A scan that takes long does not count before it has passed.
@@ -61,7 +61,7 @@ fn times_are_those_between_the_beginnings_of_scans() {
         )),
         "passed"
     );
-    insta::assert_snapshot!(run(&format!("never = \"X000 for 510ms\"\n{steps}")), @"");
+    insta::assert_snapshot!(run(&format!("never = \"X000 for 510ms\"\n{steps}")), @"step 3 (line 6): never: `X000 for 510ms` at 520 ms: X000 = 1");
 }
 
 #[test]
@@ -71,20 +71,20 @@ fn stop_and_power_off_begin_conditions_anew() {
             "never = \"X000 for 50ms\"\n[[case.step]]\nset = {{ X000 = 1 }}\nscans = 4\n[[case.step]]\n{between}\n[[case.step]]\nmode = \"run\"\nscans = 4\n"
         )
     };
-    insta::assert_snapshot!(run(&steps("scans = 1")), @"");
+    insta::assert_snapshot!(run(&steps("scans = 1")), @"step 3 (line 6): never: `X000 for 50ms` at 60 ms: X000 = 1");
     assert_eq!(run(&steps("mode = \"stop\"\nscans = 9")), "passed");
     assert_eq!(run(&steps("power_cycle = true")), "passed");
 }
 
 #[test]
 fn mistakes_in_conditions_have_a_place() {
-    insta::assert_snapshot!(outcome("never = \"Y000 &\""), @"");
-    insta::assert_snapshot!(outcome("never = [3]"), @"");
-    insta::assert_snapshot!(outcome("always = { Y000 = 1 }"), @"");
-    insta::assert_snapshot!(outcome("whenever = [{ when = \"X000\", then = { Y000 = 1 } }]"), @"");
-    insta::assert_snapshot!(outcome("whenever = [{ when = \"X000\", then = \"Y000\", within = \"soon\" }]"), @"");
-    insta::assert_snapshot!(outcome("whenever = [{ when = \"X000\", then = \"Y000\", within = \"1s\", within_ms = 5 }]"), @"");
-    insta::assert_snapshot!(outcome("stays = [{ holds = \"pump\" }]"), @"");
-    insta::assert_snapshot!(outcome("never = \"X777 & Y000\""), @"");
-    insta::assert_snapshot!(run("[[case.step]]\nreachable = \"Y000\""), @"");
+    insta::assert_snapshot!(outcome("never = \"Y000 &\""), @"t.plctest.toml:6:9: `Y000 &`: expected a device, a name or a number here");
+    insta::assert_snapshot!(outcome("never = [3]"), @r#"t.plctest.toml:6:10: invalid type: integer `3`, expected a condition: `"Y000 & Y001"`, or `{ Y000 = 1, Y001 = 1 }`"#);
+    insta::assert_snapshot!(outcome("always = { Y000 = 1 }"), @r#"t.plctest.toml:6:10: write a condition in quotes: `always = "Y000 & !Y001"`"#);
+    insta::assert_snapshot!(outcome("whenever = [{ when = \"X000\", then = { Y000 = 1 } }]"), @"t.plctest.toml:6:37: write `when` and `then` both as texts, or both as tables");
+    insta::assert_snapshot!(outcome("whenever = [{ when = \"X000\", then = \"Y000\", within = \"soon\" }]"), @"t.plctest.toml:6:54: `soon` is not a time: write for example 200ms or 5s");
+    insta::assert_snapshot!(outcome("whenever = [{ when = \"X000\", then = \"Y000\", within = \"1s\", within_ms = 5 }]"), @"t.plctest.toml:6:54: use `within` or `within_ms`, not both");
+    insta::assert_snapshot!(outcome("stays = [{ holds = \"pump\" }]"), @"t.plctest.toml:6:20: `pump`: `pump` is neither a device nor the comment of one; write a name with blanks in quotes");
+    insta::assert_snapshot!(outcome("never = \"X777 & Y000\""), @"step 1: `X777` does not exist on the model");
+    insta::assert_snapshot!(run("[[case.step]]\nreachable = \"Y000\""), @"t.plctest.toml:7:1: `reachable` belongs at the top of the file, before the first table");
 }
