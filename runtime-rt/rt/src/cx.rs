@@ -131,8 +131,9 @@ impl<'a> Cx<'a> {
         i32::try_from(self.plc.sys().dt_ms).unwrap_or(i32::MAX)
     }
 
-    /// Milliseconds since the previous scan began; 0 if the instruction has already run in this scan: time passes between
-    /// scans, however often a loop or its routine executes it. The last word of the private memory keeps the scan.
+    /// Milliseconds since the previous scan began; 0 if the instruction has already run in this scan: time passes
+    /// between scans, however often a loop or its routine executes it. The last word of the private memory keeps the
+    /// scan.
     pub fn elapsed_ms(&mut self) -> i32 {
         let scan = i32::from(self.plc.sys().scan);
         let before = self.state().0.last_mut();
