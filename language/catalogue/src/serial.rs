@@ -495,7 +495,7 @@ pub(super) const ROWS: &[Inst] = &[
         "Inverter communication by the extension ROM",
         "K10 to K13 as S: monitors, controls, reads or writes the parameters of an inverter by the FX2N-ROM-E1.",
     )
-        .forms(W16_W32)
+        .forms(ALL_FORMS)
         .steps(9, 17)
         .on(ModelSet::FX2N)
         .flags(&["M8029", "M8104", "M8154", "M8155", "M8156"])

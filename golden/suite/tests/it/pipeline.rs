@@ -482,3 +482,18 @@ fn damaged_programs() {
     });
     survive(trials.collect());
 }
+
+/// Codes of instructions that are read from projects have a row and a form in the catalogue.
+#[test]
+fn instructions_of_the_editors_are_known() {
+    let table = concat!(env!("RUNGC_ROOT"), "/frontend/formats/src/gx/tokens.tsv");
+    let table = std::fs::read_to_string(table).unwrap();
+    let mnemonics = table
+        .lines()
+        .skip(1)
+        .filter_map(|row| row.split('\t').nth(1));
+    let unknown: Vec<&str> = mnemonics
+        .filter(|mnemonic| rungc_catalogue::find(mnemonic).is_none())
+        .collect();
+    assert_eq!(unknown, [""; 0]);
+}
