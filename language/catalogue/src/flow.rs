@@ -4,7 +4,7 @@ use super::row::*;
 use super::{Basic, Classes, Drive, Inst, Lower, Param};
 use rungc_syntax::DeviceClass;
 
-/// Pointers take index registers on FX (JY997D16601 §4.11, error 6701) and HM (hm-motion-controller §5.1.8);
+/// Pointers take index registers on HM (hm-motion-controller §5.1.8), and so on FX, see choices.md;
 /// h1u-h2u-programming gives them none.
 const LABEL: &[Param] = &[Param {
     indexable: true,
