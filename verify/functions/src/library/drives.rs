@@ -67,22 +67,22 @@ ANI X004
 OUT Y001
 END",
     violates: "forward before the pause was over",
-    right: "LDI Y000
-OUT T0 K5    ; forward has been off
-LDI Y001
-OUT T1 K5    ; backward has been off
-LD X000
+    right: "LD X000
 OR Y000
 ANI X001
 AND T1
 ANI X005     ; the backward contactor is open
 OUT Y000
+LDI Y000
+OUT T0 K5    ; forward has been off
 LD X001
 OR Y001
 ANI X000
 AND T0
 ANI X004     ; the forward contactor is open
 OUT Y001
+LDI Y001
+OUT T1 K5    ; backward has been off
 END",
 };
 
@@ -125,7 +125,7 @@ pub(super) static STAR_DELTA: Function = Function {
         reachable("delta is possible", "{delta}"),
     ],
     limits: "Welded contactors, the interlock in the wiring, and whether the motor has come up to speed when star ends.",
-    example: "main = \"Y000\"\nstar = \"Y001\"\ndelta = \"Y002\"\npause = \"200ms\"\nlongest = \"2s\"",
+    example: "main = \"Y000\"\nstar = \"Y001\"\ndelta = \"Y002\"\npause = \"200ms\"\nlongest = \"2200ms\"",
     wrong: "LD X000
 OR Y000
 ANI X001
@@ -138,21 +138,26 @@ LD T0        ; delta in the scan in which star ends
 OUT Y002
 END",
     violates: "delta before the pause was over",
-    right: "LDI Y002
-OUT T2 K2    ; delta has been off
-LD X000
+    right: "LD X000
 OR Y000
 ANI X001
 OUT Y000
-OUT T0 K20   ; time in star
 LD Y000
-ANI T0
+ANI M0
 AND T2
 OUT Y001
+OUT T0 K20   ; time in star
 LD T0
-OUT T1 K2    ; pause
-LD T1
+OR M0
+AND Y000
+OUT M0       ; star is over
+LDI Y001
+OUT T1 K2    ; star has been off
+LD M0
+AND T1
 OUT Y002
+LDI Y002
+OUT T2 K2    ; delta has been off
 END",
 };
 

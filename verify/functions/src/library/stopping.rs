@@ -231,23 +231,16 @@ END",
     right: "LD X001
 OR X002
 OUT T0 K10   ; time since the first sensor
-LD X001
-AND X002
-OUT T1 K20   ; time since both
 LDI T0
-ANI M1
 AND X000     ; the field is free
-OR M0
-AND X001
-AND X002
-ANI T1
-OUT M0       ; muted
-OUT Y001     ; lamp
-LD M0
 OR M1
 AND X001
 AND X002
-OUT M1       ; has been muted, until a sensor is free
+OUT M1       ; muting has begun, until a sensor is free
+OUT T1 K20
+ANI T1
+OUT M0       ; muted
+OUT Y001     ; lamp
 LD X000
 OR M0
 LDP X003     ; reset
