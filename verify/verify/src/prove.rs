@@ -494,11 +494,11 @@ impl<'a> Hunt<'a> {
             return None;
         };
         let happens = |trace: &Trace| shown(self.question, &self.limit, trace);
-        let trace = replay::stretched(&trace, self.scan_ms);
-        if happens(&trace).is_none() {
+        let stretched = replay::stretched(&trace, self.scan_ms);
+        let Some(trace) = stretched.filter(|trace| happens(trace).is_some()) else {
             self.spurious = Some(self.bounded.scans());
             return None;
-        }
+        };
         let plain = replay::plain(&happens, self.scan_ms, trace, &self.limit.part(PLAIN));
         Some(Verdict::Found(plain))
     }
@@ -591,6 +591,52 @@ mod tests {
             .facts
             .extend(latches.map(|latch| Fact { latch, like: None }));
         assert!(refuted(&wrong).contains(&"bits-step"));
+    }
+
+    #[test]
+    fn short_scans_do_not_make_an_answer_late() {
+        // Without a longest scan, the timer expires at once; in scans of a millisecond that takes millions of them.
+        let module = module("LD X000\nOUT T0 K30000\nLD T0\nOUT Y000\nEND\n");
+        let never = parse("Y000", &|_| Vec::new()).unwrap();
+        let options = Options {
+            world: World {
+                scan_ms: 1,
+                ..World::default()
+            },
+            effort: 200,
+            ..Options::default()
+        };
+        let begin = Instant::now();
+        let decision = decide(&module, &Property::Never(never), &options);
+        assert!(matches!(decision.verdict, Verdict::Undecided(_)));
+        assert!(begin.elapsed() < Duration::from_secs(60));
+    }
+
+    #[test]
+    fn runs_keep_the_times_of_scans() {
+        let late = module("LD X000\nOUT M0\nLD M0\nOUT Y000\nEND\n");
+        let constant =
+            module("LD M8000\nOUT M8039\nLD M8002\nMOV K30 D8039\nLDP X000\nOUT Y000\nEND\n");
+        let never = Property::Never(parse("Y000", &|_| Vec::new()).unwrap());
+        for (module, scan_ms, least) in [(late, 1, 1), (constant, 200, 30)] {
+            let options = Options {
+                world: World {
+                    scan_ms,
+                    ..World::default()
+                },
+                assumed: vec![parse("!M8002 | !X000", &|_| Vec::new()).unwrap()],
+                ..Options::default()
+            };
+            let decision = decide(&module, &never, &options);
+            let Verdict::Found(trace) = decision.verdict else {
+                panic!("{decision:?}");
+            };
+            let mut later = trace.scans.iter().skip(1);
+            assert!(
+                later.all(|scan| (least..=scan_ms).contains(&scan.ms)),
+                "{trace:?}"
+            );
+        }
     }
 
     #[test]

@@ -158,9 +158,17 @@ pub fn replay(
     None
 }
 
-/// The same run with more scans, none later than this after the one before: what is set stays as it is meanwhile.
-pub(crate) fn stretched(trace: &Trace, most_ms: u32) -> Trace {
+/// The most scans of a run that is stretched.
+const STRETCHED: u32 = 20_000;
+
+/// The same run with more scans, none later than this after the one before: what is set stays as it is meanwhile. `None`
+/// if that takes too many scans.
+pub(crate) fn stretched(trace: &Trace, most_ms: u32) -> Option<Trace> {
     let most_ms = most_ms.max(1);
+    let mut all = trace.scans.iter().map(|scan| scan.ms / most_ms);
+    all.try_fold(0, |all: u32, scans| {
+        all.checked_add(scans).filter(|all| *all <= STRETCHED)
+    })?;
     let mut scans: Vec<Scan> = Vec::new();
     for scan in &trace.scans {
         let mut scan = scan.clone();
@@ -177,10 +185,10 @@ pub(crate) fn stretched(trace: &Trace, most_ms: u32) -> Trace {
         }
         scans.push(scan);
     }
-    Trace {
+    Some(Trace {
         start: trace.start.clone(),
         scans,
-    }
+    })
 }
 
 /// Runs of more scans than this are not simplified scan by scan.

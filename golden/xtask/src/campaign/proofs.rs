@@ -8,6 +8,7 @@ mod attack;
 mod draw;
 mod files;
 mod minimise;
+mod near;
 mod planted;
 mod run;
 mod table;
@@ -18,6 +19,7 @@ use crate::{Problem, root};
 use attack::{Outside, search};
 use draw::{Asked, FORMS, Pools, Question, question};
 use minimise::Refutation;
+use near::{Levels, levels};
 use run::{Goal, Run, Step, replay};
 use rungc_golden::rng::Rng;
 use rungc_ir::Module;
@@ -60,6 +62,9 @@ const COMPARED: u64 = 3;
 
 /// Time limit for each output that is compared.
 const OUTPUT: Duration = Duration::from_millis(200);
+
+/// Programs after which the time is shown.
+const SHOWN: usize = 20;
 
 /// Properties of a program.
 const PROPERTIES: u32 = 3;
@@ -118,6 +123,13 @@ fn all(extent: Extent) -> Results {
             let results = examine(&pools, extent.seed + n, extent);
             let mut parts = parts.lock().unwrap_or_else(PoisonError::into_inner);
             parts.push((n, results));
+            if parts.len().is_multiple_of(SHOWN) {
+                eprintln!(
+                    "{} programs in {} s",
+                    parts.len(),
+                    begin.elapsed().as_secs()
+                );
+            }
         }
     };
     std::thread::scope(|scope| {
@@ -193,6 +205,7 @@ fn outside(
         written: written.into_iter().collect(),
         latched: latched.into_iter().collect(),
         values: values.to_vec(),
+        near: Levels::new(),
         scan_ms: options.world.scan_ms,
         power: !options.world.fresh,
         stop: false,
@@ -224,6 +237,12 @@ impl Examination {
             let mut outside = outside(&[&module], &[&encoder], options, &self.question.values);
             outside.buffer = has_buffer(&self.question);
             outside.stop = self.stop;
+            let devices = asked
+                .property
+                .conditions()
+                .into_iter()
+                .flat_map(Condition::devices);
+            outside.near = levels(&self.question.written.text, devices);
             drop(encoder);
             let seed = self.seed_of();
             let goal = Goal::Event(&asked.property);
@@ -473,7 +492,13 @@ impl Examination {
             return;
         }
         let encoder = Encoder::scan(&module, options.world.clone());
-        let outside = outside(&[&module], &[&encoder], &options, &self.question.values);
+        let mut outside = outside(&[&module], &[&encoder], &options, &self.question.values);
+        let devices = planted
+            .property
+            .conditions()
+            .into_iter()
+            .flat_map(Condition::devices);
+        outside.near = levels(&planted.written.text, devices);
         let goal = Goal::Event(&planted.property);
         let found = search(&[&module], goal, &[], &outside, (rng.bits(), ATTACK));
         let counts = &mut self.results.planted[planted.kind];

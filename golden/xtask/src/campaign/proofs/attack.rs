@@ -3,6 +3,7 @@
 //! Runs continue from where others have come to: where a device had a value for the first time, which is the rarer the
 //! fewer runs get there, and where what is searched for was closest.
 
+use super::near::Levels;
 use super::run::{Between, Goal, Moment, Rig, Run, State, Step};
 use rungc_golden::operands::BUFFER_WORDS;
 use rungc_golden::rng::Rng;
@@ -11,8 +12,9 @@ use rungc_models::runs::rt_class;
 use rungc_rt::{Class, CmpOp, Plc};
 use rungc_sim::property::{Condition, Devices, Number, Property, read};
 use rungc_syntax::DeviceClass;
-use rungc_verify::model::{CounterPart, Key, TimerPart};
+use rungc_verify::model::{CounterPart, Key, TimerPart, device_of};
 use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
 
 /// What may happen to programs, as far as a verdict is about it.
 #[derive(Clone, Debug, Default)]
@@ -23,6 +25,8 @@ pub struct Outside {
     pub latched: Vec<Key>,
     /// Values that numbers are likely to meet.
     pub values: Vec<i64>,
+    /// Devices that lead to what is searched for; empty: all may.
+    pub near: Levels,
     /// The most milliseconds from one scan to the next.
     pub scan_ms: u32,
     /// True if power may go off and on: latched memory begins with any value.
@@ -36,6 +40,20 @@ pub struct Outside {
     /// Register with the length of a scan, if something else writes it.
     pub scan_register: Option<Key>,
 }
+
+impl Outside {
+    /// Weight of a piece of memory: the larger, the fewer rungs lead from it to what is searched for.
+    fn weight(&self, key: Key) -> f64 {
+        if self.near.is_empty() {
+            return 1.0;
+        }
+        let level = device_of(key).and_then(|device| self.near.get(&device));
+        level.map_or(FAR, |level| 1.0 / f64::from(1 + level * level))
+    }
+}
+
+/// Weight of memory from which nothing leads to what is searched for.
+const FAR: f64 = 0.01;
 
 /// Result of a search.
 #[derive(Clone, Debug, Default)]
@@ -54,24 +72,33 @@ pub fn search(
     outside: &Outside,
     (seed, scans): (u64, u64),
 ) -> Found {
+    let watched = watched(modules);
+    let weights = watched.iter().map(|key| outside.weight(*key)).collect();
     let mut attack = Attack {
         rig: Rig::new(modules, goal, assumed),
-        watched: watched(modules),
+        watched,
+        weights,
         goal,
         outside,
         rng: Rng::new(seed),
         stretches: Vec::new(),
         places: Vec::new(),
         features: BTreeMap::new(),
+        variety: Vec::new(),
+        far: None,
         last: Vec::new(),
         closest: Vec::new(),
     };
     let mut found = Found::default();
-    while found.scans < scans && found.run.is_none() {
+    let end = Instant::now() + LIMIT;
+    while found.scans < scans && found.run.is_none() && Instant::now() < end {
         (found.run, found.scans) = attack.stretch(found.scans);
     }
     found
 }
+
+/// Time limit of a search, for programs whose scans repeat very many instructions.
+const LIMIT: Duration = Duration::from_secs(4);
 
 /// Scans in a row with the same habits.
 struct Stretch {
@@ -104,10 +131,16 @@ struct Attack<'m, 'c> {
     outside: &'c Outside,
     rig: Rig<'m, 'c>,
     watched: Vec<Key>,
+    /// Weight of each of the watched devices.
+    weights: Vec<f64>,
     rng: Rng,
     stretches: Vec<Stretch>,
     places: Vec<Place<'c>>,
     features: BTreeMap<(usize, i64), Feature>,
+    /// Number of features of each of the watched devices of each program.
+    variety: Vec<u32>,
+    /// Distance at power-on.
+    far: Option<f64>,
     /// Last value of each of the watched devices of each program: what does not change is no news.
     last: Vec<i64>,
     /// The closest places with their distances, the closest first.
@@ -115,7 +148,7 @@ struct Attack<'m, 'c> {
 }
 
 /// Number of places that are kept.
-const PLACES: usize = 400;
+const PLACES: usize = 240;
 
 /// Number of the closest places that are kept.
 const CLOSEST: usize = 6;
@@ -134,14 +167,19 @@ impl Attack<'_, '_> {
     fn stretch(&mut self, before: u64) -> (Option<Run>, u64) {
         let mut levels = self.begin();
         let this = self.stretches.len() - 1;
-        let written = self.outside.written.len();
         // Often little changes, so that times pass and sequences stay in order.
         let quiet = self.rng.pick(&[0, 50, 90]).unwrap_or(0);
-        let mut habit = |_| match self.rng.percent(quiet) {
-            true => STAYS,
-            false => self.rng.pick(&HABITS).unwrap_or(STAYS),
+        let mut habit = |key: &Key| {
+            let quiet = match self.outside.weight(*key) > FAR {
+                true => quiet,
+                false => 90,
+            };
+            match self.rng.percent(quiet) {
+                true => STAYS,
+                false => self.rng.pick(&HABITS).unwrap_or(STAYS),
+            }
         };
-        let habits: Vec<u32> = (0..written).map(&mut habit).collect();
+        let habits: Vec<u32> = self.outside.written.iter().map(&mut habit).collect();
         let most = self.outside.scan_ms;
         let times = [1, 10, 10, 100, most, most, 0];
         let time = self.rng.pick(&times).unwrap_or(10);
@@ -166,7 +204,7 @@ impl Attack<'_, '_> {
     fn begin(&mut self) -> Vec<i64> {
         let from = match self.rng.below(100) {
             0..15 => None,
-            15..45 => {
+            15..45 if !self.closest.is_empty() => {
                 let near = self.rng.below(self.closest.len() as u32) as usize;
                 self.closest.get(near).map(|(_, place)| *place)
             }
@@ -210,24 +248,28 @@ impl Attack<'_, '_> {
             .collect()
     }
 
-    /// A place whose feature few scans have shown, and from which few runs have continued.
+    /// A place whose feature few scans have shown, and from which few runs have continued: first a device, then one of its
+    /// features.
     fn rare(&mut self) -> Option<usize> {
-        let weight = |feature: &Feature| {
+        let count = self.weights.len().max(1);
+        // What has never changed leads nowhere.
+        let changed = self
+            .variety
+            .iter()
+            .enumerate()
+            .filter(|(_, variety)| **variety > 1);
+        let weighted = changed.map(|(device, _)| (device, self.weights[device % count]));
+        let device = draw(&mut self.rng, weighted)?;
+        let of_device = (device, i64::MIN)..=(device, i64::MAX);
+        let features = self.features.range(of_device).filter_map(|(_, feature)| {
             let place = feature.place?;
             let taken = self.places[place].taken;
             Some((
                 place,
                 1.0 / (f64::from(1 + taken) * f64::from(feature.seen)),
             ))
-        };
-        let weights: Vec<(usize, f64)> = self.features.values().filter_map(weight).collect();
-        let all: f64 = weights.iter().map(|(_, weight)| weight).sum();
-        let mut left = f64::from(self.rng.below(1 << 30)) / f64::from(1 << 30) * all;
-        let found = weights.iter().find(|(_, weight)| {
-            left -= weight;
-            left <= 0.0
         });
-        found.or(weights.last()).map(|(place, _)| *place)
+        draw(&mut self.rng, features)
     }
 
     /// A value for a piece of memory.
@@ -331,6 +373,7 @@ impl Attack<'_, '_> {
         let next = self.places.len();
         let count = self.watched.len();
         self.last.resize(count * self.rig.plants.len(), i64::MIN);
+        self.variety.resize(self.last.len(), 0);
         for n in 0..count * self.rig.plants.len() {
             let plant = &self.rig.plants[n / count];
             let value = value_of(&plant.machine, self.watched[n % count]);
@@ -341,15 +384,22 @@ impl Attack<'_, '_> {
             let value = alike(value);
             let feature = self.features.entry((n, value));
             let feature = feature.or_insert_with(|| {
-                is_new = true;
-                let place = (next < PLACES).then_some(next);
+                let limit = match self.weights[n % count] > FAR {
+                    true => PLACES,
+                    false => PLACES / 6,
+                };
+                is_new |= next < limit;
+                self.variety[n] += 1;
+                let place = (next < limit).then_some(next);
                 Feature { seen: 0, place }
             });
             feature.seen = feature.seen.saturating_add(1);
         }
         let distance = distance(self.goal, &self.rig);
-        let farthest = self.closest.last().map_or(f64::MAX, |(far, _)| *far);
-        let is_close = distance < farthest;
+        let is_full = self.closest.len() == CLOSEST;
+        let farthest = self.closest.last().filter(|_| is_full);
+        let farthest = farthest.map_or(f64::MAX, |(far, _)| *far);
+        let is_close = distance < farthest && distance < *self.far.get_or_insert(distance);
         if !is_new && !is_close || next >= PLACES {
             return;
         }
@@ -359,7 +409,7 @@ impl Attack<'_, '_> {
             levels: levels.to_vec(),
             taken: 0,
         });
-        if is_close || self.closest.len() < CLOSEST {
+        if is_close {
             self.closest.push((distance, next));
             self.closest.sort_by(|a, b| a.0.total_cmp(&b.0));
             self.closest.truncate(CLOSEST);
@@ -383,6 +433,21 @@ impl Attack<'_, '_> {
             steps: parts.into_iter().rev().flatten().cloned().collect(),
         }
     }
+}
+
+/// One of these, each as likely as its weight says.
+fn draw(rng: &mut Rng, weighted: impl Iterator<Item = (usize, f64)> + Clone) -> Option<usize> {
+    let all: f64 = weighted.clone().map(|(_, weight)| weight).sum();
+    let mut left = f64::from(rng.below(1 << 30)) / f64::from(1 << 30) * all;
+    let mut last = None;
+    for (one, weight) in weighted {
+        last = Some(one);
+        left -= weight;
+        if left < 0.0 {
+            break;
+        }
+    }
+    last
 }
 
 /// Number of bits of memory that something else writes.
@@ -439,11 +504,15 @@ pub fn value_of(machine: &impl Plc, key: Key) -> i64 {
     found.unwrap_or(0)
 }
 
-/// Values that count as one: small ones are exact, others are alike if they have as many bits.
+/// Values that count as one: small ones are exact, of others four are told apart from one power of two to the next.
 fn alike(value: i64) -> i64 {
     match value.unsigned_abs() {
-        0..64 => value,
-        large => value.signum() * i64::from(64 + large.ilog2()),
+        0..16 => value,
+        large => {
+            let power = large.ilog2();
+            let quarter = i64::try_from(large >> (power - 2)).unwrap_or(0) & 3;
+            value.signum() * (i64::from(4 * power) + quarter)
+        }
     }
 }
 

@@ -129,7 +129,7 @@ const SPECIALS: [&str; 12] = [
 /// Longest times from one scan to the next, in milliseconds.
 const SCANS_MS: [u32; 8] = [1, 10, 50, 200, 200, 200, 1000, 32_767];
 
-/// The question with this number; `None` if its program does not compile.
+/// The question with this number; `None` if its program does not compile, or a scan may execute many instructions.
 pub fn question(pools: &Pools, seed: u64, time: Duration) -> Option<Question> {
     let mut rng = Rng::new(seed ^ 0x9AFE);
     let (model, all, exact) = &pools.0[(seed % pools.0.len() as u64) as usize];
@@ -173,8 +173,21 @@ pub fn question(pools: &Pools, seed: u64, time: Duration) -> Option<Question> {
     if question.rng.percent(25) {
         question.assume();
     }
+    is_short(&question.written.text).then_some(())?;
     question.written.module(&question.options, &[])?;
     Some(question)
+}
+
+/// Returns true if a scan executes few instructions for certain, and its logic is small: each call of a routine and each
+/// iteration is part of it.
+fn is_short(text: &str) -> bool {
+    /// The register that counts how often a program jumps back.
+    const PASSES: &str = "D120";
+    let count = |line: &str| line.strip_prefix("FOR K")?.parse::<u32>().ok();
+    let mut loops = text.lines().filter(|line| line.starts_with("FOR "));
+    text.matches("CALL").count() <= 1
+        && !text.contains(PASSES)
+        && loops.all(|line| count(line).is_some_and(|count| count <= 12))
 }
 
 /// Devices that a list names, each once.

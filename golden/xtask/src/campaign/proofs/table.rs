@@ -35,7 +35,7 @@ pub struct Counts {
 pub struct Results {
     /// Programs.
     pub programs: u64,
-    /// Programs that do not compile.
+    /// Programs that do not compile, or are too large.
     pub rejected: u64,
     /// By [`FORMS`].
     pub counts: [Counts; FORMS.len()],
@@ -98,7 +98,7 @@ impl Results {
         lines.push(format!("| all | {programs} | {found} |"));
         lines.push(String::new());
         lines.push(format!(
-            "{} programs, {} drawn lists do not compile; {} exported questions evaluated over {} scans; another model \
+            "{} programs, {} drawn lists left out; {} exported questions evaluated over {} scans; another model \
              checker answers {} and not {} in time; {} wrong",
             self.programs,
             self.rejected,
