@@ -52,8 +52,8 @@ pub struct VerifyArgs {
     /// Write the runs found to a test file, whose cases fail until the program is repaired: `rungc test FILE`.
     #[arg(long, value_name = "FILE")]
     pub write_test: Option<OutputPath>,
-    /// Write a report for an assessor (`rungc book requirements`): requirements, proofs, assumptions, gaps, runs, tests.
-    /// A page (.html), a document (.pdf) or JSON (.json).
+    /// Write a report for an assessor (`rungc book requirements`): requirements, proofs, assumptions, gaps, runs and
+    /// tests. A page (.html), a document (.pdf) or JSON (.json).
     #[arg(long, value_name = "FILE", conflicts_with = "same_as")]
     pub report: Option<OutputPath>,
     /// With --report: count the mutants (`rungc book mutants`) that the cases of each requirement notice.
