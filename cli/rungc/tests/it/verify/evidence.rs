@@ -157,10 +157,16 @@ fn requirements_that_are_not_known_are_missing() {
 fn members(schema: &Value, found: &mut BTreeSet<String>) {
     match schema {
         Value::Object(map) => {
-            if let Some(Value::Object(properties)) = map.get("properties") {
-                found.extend(properties.keys().cloned());
+            for (key, value) in map {
+                match (key.as_str(), value) {
+                    // One of the members may have this name, too.
+                    ("properties", Value::Object(properties)) => {
+                        found.extend(properties.keys().cloned());
+                        properties.values().for_each(|value| members(value, found));
+                    }
+                    _ => members(value, found),
+                }
             }
-            map.values().for_each(|value| members(value, found));
         }
         Value::Array(values) => values.iter().for_each(|value| members(value, found)),
         _ => {}
