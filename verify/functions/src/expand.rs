@@ -112,7 +112,7 @@ impl Given {
                 Ok(read) => {
                     values.insert(parameter.name, read);
                 }
-                Err(mistake) => wrong.push(mistake),
+                Err(mistake) => wrong.push(*mistake),
             }
         }
         for parameter in function.parameters {
@@ -336,24 +336,26 @@ fn example(kind: Kind) -> &'static str {
 fn read_values(
     parameter: &Parameter,
     given: &property::Parameter,
-) -> Result<Vec<Named>, Diagnostic> {
+) -> Result<Vec<Named>, Box<Diagnostic>> {
     let (name, kind) = (parameter.name, parameter.kind);
     match (kind, &given.values[..]) {
-        (_, []) => Err(wrong(
+        (_, []) => Err(Box::new(wrong(
             &given.key,
             format!("`{name}` has no value: {}", parameter.text),
-        )),
+        ))),
         (Kind::Several, [only]) => {
             let message = format!("`{name}` is a list of at least two devices");
-            Err(wrong(only, message).help(format!("write `{name} = {}`", example(kind))))
+            Err(Box::new(
+                wrong(only, message).help(format!("write `{name} = {}`", example(kind))),
+            ))
         }
         (Kind::Condition | Kind::Device | Kind::Time, [_, second, ..]) => {
             let message = format!("`{name}` is one {}, not a list", kind.describe());
-            Err(wrong(second, message))
+            Err(Box::new(wrong(second, message)))
         }
         (Kind::Time, values) => match duration::parse(&values[0].text) {
             Ok(_) => Ok(values.to_vec()),
-            Err(why) => Err(wrong(&values[0], why)),
+            Err(why) => Err(Box::new(wrong(&values[0], why))),
         },
         (Kind::Condition, values) => Ok(values.iter().map(trimmed).collect()),
         (_, values) => values.iter().map(|value| switched(name, value)).collect(),
@@ -368,7 +370,7 @@ fn trimmed(value: &Named) -> Named {
 }
 
 /// A device that programs switch, or a name of one.
-fn switched(parameter: &str, value: &Named) -> Result<Named, Diagnostic> {
+fn switched(parameter: &str, value: &Named) -> Result<Named, Box<Diagnostic>> {
     let text = value.text.trim();
     let with = |text: String| Named {
         text,
@@ -383,7 +385,9 @@ fn switched(parameter: &str, value: &Named) -> Result<Named, Diagnostic> {
             _ => "not a bit that a program switches",
         };
         let message = format!("`{text}` is {why}");
-        return Err(wrong(value, message).help(format!("`{parameter}` is a device Y, M or S")));
+        return Err(Box::new(
+            wrong(value, message).help(format!("`{parameter}` is a device Y, M or S")),
+        ));
     }
     let inner = text.strip_prefix('"').and_then(|t| t.strip_suffix('"'));
     if let Some(inner) = inner.filter(|inner| !inner.is_empty() && !inner.contains('"')) {
@@ -391,7 +395,7 @@ fn switched(parameter: &str, value: &Named) -> Result<Named, Diagnostic> {
     }
     if text.is_empty() || text.contains(|c: char| "&|!()=<>\"".contains(c)) {
         let message = format!("`{parameter}` is a device, not a condition: `{text}`");
-        return Err(wrong(value, message));
+        return Err(Box::new(wrong(value, message)));
     }
     Ok(with(format!("\"{text}\"")))
 }

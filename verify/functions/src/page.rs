@@ -150,7 +150,7 @@ fn needs(function: &Function, demand: &Demand) -> String {
             let mut names = parts.flatten().flat_map(placeholders);
             names.any(|name| name == parameter.name)
         };
-        parameter.presence == Presence::Optional && templates.iter().any(|t| outside(&t))
+        parameter.presence == Presence::Optional && templates.iter().any(outside)
     };
     let needed = function.parameters.iter().filter(is_needed);
     let needed: Vec<_> = needed

@@ -36,14 +36,14 @@ pub fn rule(property: &Property) -> String {
             until,
         } => {
             let after = match after {
-                Some(after) => format!(", after = {}", quoted(after)),
                 None => String::new(),
+                Some(after) => format!("after = {}, ", quoted(after)),
             };
             let until = match until {
                 Condition::Constant(false) => String::new(),
                 until => format!(", until = {}", quoted(until)),
             };
-            format!("stays = [{{ holds = {}{after}{until} }}]", quoted(holds))
+            format!("stays = [{{ {after}holds = {}{until} }}]", quoted(holds))
         }
     }
 }

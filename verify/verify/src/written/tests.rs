@@ -89,6 +89,7 @@ fn property(random: &mut Random) -> Property {
         1 => Property::Always(condition(random)),
         2 => Property::Reachable(condition(random)),
         3 => Property::Stays {
+            after: (random.below(2) == 0).then(|| condition(random)),
             holds: condition(random),
             until: condition(random),
         },
@@ -217,6 +218,7 @@ fn properties_are_lines_of_a_case() {
             within_ms: 50,
         },
         Property::Stays {
+            after: None,
             holds: read("Y0"),
             until: off,
         },
