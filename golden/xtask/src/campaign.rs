@@ -37,9 +37,6 @@ pub struct Args {
     /// Stop earlier, once this many executions of instructions have been compared.
     #[arg(long)]
     instructions: Option<u64>,
-    /// With --proofs: let the PLC go to STOP and back to RUN in attacks.
-    #[arg(long, requires = "proofs")]
-    stop: bool,
     /// Random programs, 1000 of them with --proofs; else those in a batch, 40, of which the first ones are smaller.
     #[arg(long)]
     programs: Option<u64>,
@@ -113,7 +110,6 @@ pub fn run(args: &Args) -> Result<(), Problem> {
                 .minutes
                 .map(|minutes| Duration::from_secs(60 * minutes)),
             others: true,
-            stop: args.stop,
         });
     }
     let folder = root().join("target/campaign");

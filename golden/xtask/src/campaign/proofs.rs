@@ -50,18 +50,16 @@ pub struct Extent {
     pub time: Option<Duration>,
     /// Ask another model checker where it is installed.
     pub others: bool,
-    /// Verdicts are about runs with STOP, too.
-    pub stop: bool,
 }
 
-/// Time limit for a question.
-const QUESTION: Duration = Duration::from_millis(800);
+/// Effort for a question.
+const QUESTION: u64 = 800;
 
 /// Of this many programs, one is compared with a program that was changed.
 const COMPARED: u64 = 3;
 
-/// Time limit for each output that is compared.
-const OUTPUT: Duration = Duration::from_millis(200);
+/// Effort for each output that is compared.
+const OUTPUT: u64 = 200;
 
 /// Programs after which the time is shown.
 const SHOWN: usize = 20;
@@ -155,7 +153,6 @@ fn examine(pools: &Pools, seed: u64, extent: Extent) -> Results {
     let mut examination = Examination {
         question,
         seed,
-        stop: extent.stop,
         others: extent.others && seed.is_multiple_of(8) && files::has_abc(),
         results,
     };
@@ -173,7 +170,6 @@ fn examine(pools: &Pools, seed: u64, extent: Extent) -> Results {
 struct Examination {
     question: Question,
     seed: u64,
-    stop: bool,
     others: bool,
     results: Results,
 }
@@ -208,7 +204,7 @@ fn outside(
         near: Levels::new(),
         scan_ms: options.world.scan_ms,
         power: !options.world.fresh,
-        stop: false,
+        stop: true,
         buffer: false,
         events: modules.iter().any(|module| module.takes_events()),
     }
@@ -236,7 +232,6 @@ impl Examination {
             }
             let mut outside = outside(&[&module], &[&encoder], options, &self.question.values);
             outside.buffer = has_buffer(&self.question);
-            outside.stop = self.stop;
             let devices = asked
                 .property
                 .conditions()
@@ -297,7 +292,7 @@ impl Examination {
                     self.wrong(&asked.text, &why);
                 }
             }
-            Verdict::Undecided(Why::Time { .. }) => counts.late += 1,
+            Verdict::Undecided(Why::Effort { .. } | Why::Time { .. }) => counts.late += 1,
             Verdict::Undecided(Why::Vacuous { .. }) => counts.vacuous += 1,
             Verdict::Undecided(Why::Spurious { .. } | Why::Engines { .. }) => {
                 counts.unmodelled += 1
@@ -400,7 +395,7 @@ impl Examination {
             return;
         };
         let options = Options {
-            time: OUTPUT,
+            effort: OUTPUT,
             ..self.question.options.clone()
         };
         let modules = [&old, &new].map(|written| written.module(&options, &[]));
@@ -417,7 +412,6 @@ impl Examination {
         }
         let pair = [old_module, new_module];
         let mut outside = outside(&pair, &[of_old, of_new], &options, &self.question.values);
-        outside.stop = self.stop;
         let compared = compare(old_module, new_module, &options);
         let is_vacuous = pair
             .iter()
@@ -449,7 +443,7 @@ impl Examination {
                         }
                     }
                 }
-                Verdict::Undecided(Why::Time { .. }) => counts.late += 1,
+                Verdict::Undecided(Why::Effort { .. } | Why::Time { .. }) => counts.late += 1,
                 Verdict::Undecided(Why::Contradiction { .. }) => counts.contradictory += 1,
                 Verdict::Undecided(Why::Vacuous { .. }) => counts.vacuous += 1,
                 Verdict::Undecided(Why::Spurious { .. } | Why::Engines { .. }) => {
@@ -483,9 +477,8 @@ impl Examination {
             return;
         };
         let options = Options {
-            world: rungc_verify::model::World::default(),
-            assumed: Vec::new(),
-            time: QUESTION,
+            effort: QUESTION,
+            ..Options::default()
         };
         let Some(module) = planted.written.module(&options, &[&planted.property]) else {
             return;
@@ -528,6 +521,7 @@ fn run_of(trace: &Trace) -> Run {
             .scans
             .iter()
             .map(|scan| Step {
+                stop: scan.restart,
                 set: set(&scan.set),
                 ms: scan.ms,
                 scan_us: scan.scan_time * 100,

@@ -527,8 +527,15 @@ fn distance(goal: Goal, rig: &Rig) -> f64 {
             Property::Never(a) | Property::Reachable(a) => of(a, true),
             Property::Always(a) => of(a, false),
             Property::Whenever { when, then, .. } => of(when, true) + of(then, false),
-            Property::Stays { holds, until } => {
-                let began = of(holds, true).min(of(holds, false) + 0.5);
+            Property::Stays {
+                after,
+                holds,
+                until,
+            } => {
+                let began = match after {
+                    Some(after) => of(after, true) + of(holds, false),
+                    None => of(holds, true).min(of(holds, false) + 0.5),
+                };
                 began + of(until, false)
             }
         },
@@ -548,10 +555,13 @@ fn far(condition: &Condition, devices: &impl Devices, wanted: bool) -> f64 {
             }
         }
         Condition::Compare(op, a, b) if condition.holds(devices) != wanted => {
-            let [a, b] = [a, b].map(|number| match *number {
-                Number::Constant(value) => value,
-                Number::Of(target) => read(devices, target),
-            });
+            let [Some(a), Some(b)] = [a, b].map(|number| match *number {
+                Number::Constant(value) => Some(value),
+                Number::Of(target) => Some(read(devices, target)),
+                Number::Float(_) | Number::Was(_) | Number::Calc(_) => None,
+            }) else {
+                return 1.0;
+            };
             let apart = f64::from(a.abs_diff(b));
             let apart = match op {
                 CmpOp::Ne if wanted => 1.0,

@@ -159,7 +159,8 @@ pub fn question(pools: &Pools, seed: u64, time: Duration) -> Option<Question> {
                 ..World::default()
             },
             assumed: Vec::new(),
-            time,
+            effort,
+            time: None,
         },
         assumed: Vec::new(),
         values: Vec::new(),
@@ -319,23 +320,36 @@ impl Question {
                     within_ms,
                 },
             },
-            _ => Asked {
-                form: 5,
-                text: format!("stays {first_text} until {second_text}"),
-                property: Property::Stays {
-                    holds: first,
-                    until: second,
-                },
-            },
+            _ => {
+                let (after, after_text) = match self.rng.percent(50) {
+                    true => read(self, 0).map(|(after, text)| (Some(after), format!(" after {text}")))?,
+                    false => (None, String::new()),
+                };
+                Asked {
+                    form: 5,
+                    text: format!("stays {first_text}{after_text} until {second_text}"),
+                    property: Property::Stays {
+                        after,
+                        holds: first,
+                        until: second,
+                    },
+                }
+            }
         })
     }
 
     /// A random condition.
     fn condition(&mut self, depth: u32) -> String {
         if depth == 0 {
-            return match self.rng.below(10) {
+            return match self.rng.below(16) {
                 0..6 => self.bit(),
                 6 => format!("{} = {}", self.bit(), self.bit()),
+                7 => format!("rises({})", self.bit()),
+                8 => format!("falls({})", self.bit()),
+                9 => format!("was({})", self.bit()),
+                10 => format!("({} for {}ms)", self.bit(), 1 + self.rng.below(300)),
+                11 => format!("({} before {})", self.bit(), self.bit()),
+                12 => format!("at most one of ({}, {}, {})", self.bit(), self.bit(), self.bit()),
                 _ => self.comparison(),
             };
         }

@@ -11,20 +11,23 @@ use rungc_verify::{aiger, btor2};
 use std::collections::BTreeMap;
 use std::process::Command;
 
+/// Index of a value, and whether it is inverted.
+type Operand = (usize, bool);
+
 /// Logic of a file, one bit a line or gate.
 struct Logic {
     /// Operands of each gate in order: index of the result, and of the operands with inversion.
-    gates: Vec<(usize, (usize, bool), (usize, bool))>,
+    gates: Vec<(usize, Operand, Operand)>,
     inputs: Vec<usize>,
     /// State, its next value, and its initial value; `None`: any.
-    states: Vec<(usize, (usize, bool), Option<bool>)>,
-    constraints: Vec<(usize, bool)>,
-    bad: (usize, bool),
+    states: Vec<(usize, Operand, Option<bool>)>,
+    constraints: Vec<Operand>,
+    bad: Operand,
     values: Vec<bool>,
 }
 
 impl Logic {
-    fn of(&self, (at, inverted): (usize, bool)) -> bool {
+    fn of(&self, (at, inverted): Operand) -> bool {
         self.values[at] != inverted
     }
 
@@ -237,7 +240,7 @@ pub fn evaluate(
                     };
                     part >> bit & 1 == 1
                 }
-                Some(Input::ScanTime(bit)) => step.scan_us / 100 >> bit & 1 == 1,
+                Some(Input::ScanTime(bit)) => (step.scan_us / 100) >> bit & 1 == 1,
                 Some(Input::Gap(_)) | None => false,
             })
             .collect();
