@@ -339,15 +339,14 @@ fn read_values(
 ) -> Result<Vec<Named>, Box<Diagnostic>> {
     let (name, kind) = (parameter.name, parameter.kind);
     match (kind, &given.values[..]) {
-        (_, []) => Err(Box::new(wrong(
-            &given.key,
-            format!("`{name}` has no value: {}", parameter.text),
-        ))),
+        (_, []) => {
+            let message = format!("`{name}` has no value: {}", parameter.text);
+            Err(Box::new(wrong(&given.key, message)))
+        }
         (Kind::Several, [only]) => {
             let message = format!("`{name}` is a list of at least two devices");
-            Err(Box::new(
-                wrong(only, message).help(format!("write `{name} = {}`", example(kind))),
-            ))
+            let help = format!("write `{name} = {}`", example(kind));
+            Err(Box::new(wrong(only, message).help(help)))
         }
         (Kind::Condition | Kind::Device | Kind::Time, [_, second, ..]) => {
             let message = format!("`{name}` is one {}, not a list", kind.describe());

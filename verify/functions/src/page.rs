@@ -145,12 +145,13 @@ fn needs(function: &Function, demand: &Demand) -> String {
     };
     let templates = demand.form.templates();
     let is_needed = |parameter: &&Parameter| {
-        let outside = |template: &&str| {
+        let outside = |template: &str| {
             let parts = template.split('[').map(|part| part.rsplit(']').next());
             let mut names = parts.flatten().flat_map(placeholders);
             names.any(|name| name == parameter.name)
         };
-        parameter.presence == Presence::Optional && templates.iter().any(outside)
+        parameter.presence == Presence::Optional
+            && templates.iter().any(|template| outside(template))
     };
     let needed = function.parameters.iter().filter(is_needed);
     let needed: Vec<_> = needed

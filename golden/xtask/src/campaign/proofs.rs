@@ -411,7 +411,7 @@ impl Examination {
             return;
         }
         let pair = [old_module, new_module];
-        let mut outside = outside(&pair, &[of_old, of_new], &options, &self.question.values);
+        let outside = outside(&pair, &[of_old, of_new], &options, &self.question.values);
         let compared = compare(old_module, new_module, &options);
         let is_vacuous = pair
             .iter()

@@ -13,11 +13,9 @@ use rungc_project::property::{PropertyKind, Row};
 use rungc_project::{Named, Project};
 use rungc_sim::property::{Condition, Property, parse};
 use rungc_syntax::{DeviceClass, Program};
-use rungc_verify::model::World;
 use rungc_verify::prove::{Options, Verdict, decide};
 use rungc_verify::same::compare;
 use std::path::Path;
-use std::time::Duration;
 
 /// Changes that no demand refutes although they change outputs: function, reason, changes.
 const SURVIVORS: &[(&str, &str, &[&str])] = &[
@@ -195,17 +193,16 @@ fn module(program: &Program, demands: &[(String, Property)]) -> Option<Module> {
     Some(module)
 }
 
-fn options(seconds: u64) -> Options {
+fn options(effort: u64) -> Options {
     Options {
-        world: World::default(),
-        assumed: Vec::new(),
-        time: Duration::from_secs(seconds),
+        effort,
+        ..Options::default()
     }
 }
 
 /// Returns true if a program lacks a property; else the reason why that is not decided.
-fn lacks(module: &Module, property: &Property, seconds: u64) -> Result<bool, String> {
-    match decide(module, property, &options(seconds)).verdict {
+fn lacks(module: &Module, property: &Property, effort: u64) -> Result<bool, String> {
+    match decide(module, property, &options(effort)).verdict {
         Verdict::Found(_) => Ok(!property.is_wanted()),
         Verdict::Proved => Ok(property.is_wanted()),
         Verdict::Undecided(why) => Err(format!("{why:?}")),
@@ -225,8 +222,8 @@ fn right_programs_have_all_properties_and_wrong_ones_lack_one() {
         let right = module(&program(function.right), &demands).unwrap();
         for (name, property) in &demands {
             let verdict = match is_undecided(name) {
-                true => lacks(&right, property, 1),
-                false => lacks(&right, property, 60),
+                true => lacks(&right, property, 1_000),
+                false => lacks(&right, property, 60_000),
             };
             if verdict != Ok(false) && !(verdict.is_err() && is_undecided(name)) {
                 wrong.push(format!("right: {name}: {verdict:?}"));
@@ -235,7 +232,7 @@ fn right_programs_have_all_properties_and_wrong_ones_lack_one() {
         let violated = format!("{}: {}", function.name, function.violates);
         let demand = demands.iter().find(|(name, _)| *name == violated).unwrap();
         let module = module(&program(function.wrong), &demands).unwrap();
-        let verdict = lacks(&module, &demand.1, 60);
+        let verdict = lacks(&module, &demand.1, 60_000);
         if verdict != Ok(true) {
             wrong.push(format!("wrong: {violated}: {verdict:?}"));
         }
@@ -266,13 +263,14 @@ fn survivors(function: &Function) -> Vec<String> {
         let Some(new) = module(&mutant.applied(&right), &demands) else {
             continue;
         };
-        let is_refuted = |(_, property): &(String, Property)| lacks(&new, property, 2) == Ok(true);
+        let is_refuted =
+            |(_, property): &(String, Property)| lacks(&new, property, 2_000) == Ok(true);
         if let Some(at) = demands.iter().position(is_refuted) {
             // Demands that have refuted a mutant are likely to refute the next.
             demands[..=at].rotate_right(1);
             continue;
         }
-        let outputs = compare(&old, &new, &options(4)).outputs;
+        let outputs = compare(&old, &new, &options(4_000)).outputs;
         let mut verdicts = outputs.iter().map(|output| &output.verdict);
         if verdicts.any(|verdict| *verdict != Verdict::Proved) {
             survived.push(format!("{}: {change}", function.name));

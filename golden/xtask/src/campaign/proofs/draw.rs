@@ -12,7 +12,6 @@ use rungc_sim::property::{Condition, Property, parse};
 use rungc_syntax::{DeviceClass, DeviceRun};
 use rungc_verify::model::World;
 use rungc_verify::prove::Options;
-use std::time::Duration;
 
 /// Instructions of each model.
 pub struct Pools(Vec<(ModelId, Vec<Candidate>, Vec<Candidate>)>);
@@ -130,7 +129,7 @@ const SPECIALS: [&str; 12] = [
 const SCANS_MS: [u32; 8] = [1, 10, 50, 200, 200, 200, 1000, 32_767];
 
 /// The question with this number; `None` if its program does not compile, or a scan may execute many instructions.
-pub fn question(pools: &Pools, seed: u64, time: Duration) -> Option<Question> {
+pub fn question(pools: &Pools, seed: u64, effort: u64) -> Option<Question> {
     let mut rng = Rng::new(seed ^ 0x9AFE);
     let (model, all, exact) = &pools.0[(seed % pools.0.len() as u64) as usize];
     let pool = if rng.percent(50) { exact } else { all };
@@ -322,7 +321,8 @@ impl Question {
             },
             _ => {
                 let (after, after_text) = match self.rng.percent(50) {
-                    true => read(self, 0).map(|(after, text)| (Some(after), format!(" after {text}")))?,
+                    true => read(self, 0)
+                        .map(|(after, text)| (Some(after), format!(" after {text}")))?,
                     false => (None, String::new()),
                 };
                 Asked {
@@ -349,7 +349,12 @@ impl Question {
                 9 => format!("was({})", self.bit()),
                 10 => format!("({} for {}ms)", self.bit(), 1 + self.rng.below(300)),
                 11 => format!("({} before {})", self.bit(), self.bit()),
-                12 => format!("at most one of ({}, {}, {})", self.bit(), self.bit(), self.bit()),
+                12 => format!(
+                    "at most one of ({}, {}, {})",
+                    self.bit(),
+                    self.bit(),
+                    self.bit()
+                ),
                 _ => self.comparison(),
             };
         }

@@ -188,7 +188,7 @@ fn states(system: &System) -> Vec<usize> {
 pub fn is_exact(system: &System) -> bool {
     system.inputs.iter().all(|(_, input)| match input {
         Input::Gap(_) | Input::Device(Key::Buffer(..), _) => false,
-        Input::Device(..) | Input::Time(..) | Input::ScanTime(_) => true,
+        Input::Device(..) | Input::Time(..) | Input::ScanTime(_) | Input::Restart => true,
     })
 }
 
@@ -241,6 +241,7 @@ pub fn evaluate(
                     part >> bit & 1 == 1
                 }
                 Some(Input::ScanTime(bit)) => (step.scan_us / 100) >> bit & 1 == 1,
+                Some(Input::Restart) => step.stop,
                 Some(Input::Gap(_)) | None => false,
             })
             .collect();

@@ -6,7 +6,7 @@ use super::{Extent, QUESTION, all, files, judge, minimise, outside, planted};
 use rungc_golden::rng::Rng;
 use rungc_models::ModelId;
 use rungc_sim::property::{Property, parse};
-use rungc_verify::model::{Encoder, World};
+use rungc_verify::model::Encoder;
 use rungc_verify::prove::{Options, system};
 
 fn written(text: &str) -> Written {
@@ -19,9 +19,8 @@ fn written(text: &str) -> Written {
 
 fn options() -> Options {
     Options {
-        world: World::default(),
-        assumed: Vec::new(),
-        time: QUESTION,
+        effort: QUESTION,
+        ..Options::default()
     }
 }
 
@@ -51,7 +50,6 @@ fn answers_about_random_programs_withstand_attacks() {
         jobs: 1,
         time: None,
         others: false,
-        stop: false,
     };
     let results = all(extent);
     assert!(results.wrong.is_empty(), "{}", results.wrong.join("\n\n"));
