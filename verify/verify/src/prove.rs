@@ -529,6 +529,7 @@ mod tests {
     use crate::sat::{Answer, Solver};
     use crate::tests::module;
     use rungc_sim::property::{Property, parse};
+    use std::time::{Duration, Instant};
 
     #[test]
     fn each_way_to_a_proof_leaves_what_others_can_check() {

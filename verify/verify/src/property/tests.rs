@@ -12,7 +12,6 @@ use rungc_ir::Module;
 use rungc_rt::{Class, Plc};
 use rungc_sim::property::{Condition, Property, Watcher, parse};
 use std::collections::BTreeMap;
-use std::time::Duration;
 
 /// Writes what conditions look at: values that are often alike, and any.
 const PROGRAM: &str = "LD M8000\nWAND K4X000 H8003 D0\nMOV K4X010 D1\nMOV K4X000 K4Y000\nMOV D0 K4M0\nMOV D1 K3M16\n\
@@ -65,17 +64,20 @@ impl Seen {
 /// The devices after each scan so far.
 type History = [Seen];
 
+/// What something is after the scan of a number.
+type InScan<T> = Box<dyn Fn(&History, usize) -> T>;
+
 /// A condition as it is written, and its meaning by the page of the book on properties: after the scan of this number.
 pub(crate) struct Written {
     pub text: String,
-    holds: Box<dyn Fn(&History, usize) -> bool>,
+    holds: InScan<bool>,
 }
 
 /// A number as it is written, its value after a scan, and the bits of its constants; more than 32 for a signed value
 /// of 32 bits.
 struct Quantity {
     text: String,
-    value: Box<dyn Fn(&History, usize) -> i64>,
+    value: InScan<i64>,
     /// 16 and 32 are signed.
     bits: u32,
 }
@@ -162,18 +164,17 @@ fn device(random: &mut Random) -> Quantity {
 fn calculation(depth: u32, random: &mut Random) -> Quantity {
     let a = number(depth - 1, random);
     let wide = |bits: u32| bits > 16;
-    let (b_text, b, b_is_wide): (String, Box<dyn Fn(&History, usize) -> i64>, bool) =
-        match random.below(3) {
-            0 => {
-                let constant = pick(&[0, 1, -1, 2, 7, -100, 32767, -32768], random);
-                (constant.to_string(), Box::new(move |_, _| constant), false)
-            }
-            _ => {
-                let b = number(depth - 1, random);
-                let text = format!("({})", b.text);
-                (text, b.value, wide(b.bits))
-            }
-        };
+    let (b_text, b, b_is_wide): (String, InScan<i64>, bool) = match random.below(3) {
+        0 => {
+            let constant = pick(&[0, 1, -1, 2, 7, -100, 32767, -32768], random);
+            (constant.to_string(), Box::new(move |_, _| constant), false)
+        }
+        _ => {
+            let b = number(depth - 1, random);
+            let text = format!("({})", b.text);
+            (text, b.value, wide(b.bits))
+        }
+    };
     let sign = pick(&["+", "-", "*", "/", "%"], random);
     let bits = if wide(a.bits) || b_is_wide || sign == "*" {
         32
@@ -511,9 +512,8 @@ fn a_property_means_the_same_on_bits_on_values_and_in_the_book() {
 fn what_the_model_cannot_do_is_not_decided_for_this_reason() {
     let module = module("LD X000\nMOV K1 D0\nLD M8000\nMOV K0 D1\nEND\n");
     let options = Options {
-        world: World::default(),
-        assumed: Vec::new(),
-        time: Duration::from_secs(5),
+        effort: 5_000,
+        ..Options::default()
     };
     let decided = |text: &str| {
         let never = Property::Never(parse(text, &|_| Vec::new()).unwrap());

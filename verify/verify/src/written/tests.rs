@@ -12,7 +12,6 @@ use rungc_ir::Module;
 use rungc_sim::property::{Condition, Property, parse};
 use rungc_syntax::DeviceClass::{self, C, D, M, S, T, Y};
 use std::collections::BTreeSet;
-use std::time::Duration;
 
 /// A rung: contacts and an instruction.
 fn rung(random: &mut Random) -> String {
@@ -159,8 +158,7 @@ fn a_written_test_is_read_and_fails_on_its_program() {
                 free: free(&mut random),
                 ..World::default()
             },
-            assumed: Vec::new(),
-            time: Duration::ZERO,
+            ..Options::default()
         };
         let module = observing(&list, &property);
         let Some(trace) = found(&module, &property, &options, &mut random) else {
