@@ -18,12 +18,20 @@ pub struct Specials {
 }
 
 impl RtFn {
-    /// The special devices that it uses, if these and its operands are all that it uses: it has no private memory, asks
-    /// no hardware, and finds no devices but those that operands name.
+    /// The special devices that it uses, if these and its operands are all that it uses: it asks no hardware, finds no
+    /// devices but those that operands name, and has no private memory, but for that in which PID keeps the last scan.
     pub fn specials(self) -> Option<Specials> {
         // ANR looks for annunciators S, ZPUSH and ZPOP keep the index registers.
         let others = matches!(self, RtFn::Anr | RtFn::Zpush | RtFn::Zpop | RtFn::LogError);
-        if self.needs() != Needs::default() || others {
+        let keeps_scan = matches!(
+            self,
+            RtFn::Pid | RtFn::PidTuning | RtFn::PidChecked | RtFn::PidHm
+        );
+        let at_most = Needs {
+            state: keeps_scan,
+            ..Needs::default()
+        };
+        if self.needs() != at_most || others {
             return None;
         }
         Some(Specials {

@@ -272,7 +272,7 @@ fn what_programs_do_is_compared() {
     );
     assert_eq!(behaviour(old, &new), (expected, Some(1)));
     // An index may lead anywhere.
-    let old = "LD X2\nMOV D1 Z0\nLD X0\nMOV K1 D0Z0\nLD= D50 K1\nOUT Y0\nLD X1\nOUT Y1\nEND\n";
+    let old = "LD X2\nMOV K4X010 Z0\nLD X0\nMOV K1 D0Z0\nLD= D50 K1\nOUT Y0\nLD X1\nOUT Y1\nEND\n";
     let (words, code) = behaviour(old, &old.replace("K1 D0Z0", "K2 D0Z0"));
     assert!(
         words.starts_with("Outputs that can differ: Y000."),

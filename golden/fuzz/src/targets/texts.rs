@@ -4,6 +4,7 @@ use super::Target;
 use rungc_fleet::Fleet;
 use rungc_frontend::Names;
 use rungc_host::{duration, io};
+use rungc_project::Project;
 use rungc_project::serve::{FxEnd, Line, LineEnd};
 use rungc_sim::property;
 use rungc_sim::protocol::Answer;
@@ -57,6 +58,19 @@ fn names(text: &str) {
 }
 
 /// Single words, as arguments of the command line and lines between processes have them.
+/// Safety functions of a project's settings, and its cause-and-effect matrix `m.csv`: the text after a line of `---`.
+fn functions(text: &str) {
+    let (settings, matrix) = text.split_once("---\n").unwrap_or((text, ""));
+    let Ok(folder) = tempfile::tempdir() else {
+        return;
+    };
+    if std::fs::write(folder.path().join("m.csv"), matrix).is_ok()
+        && let Ok(project) = Project::parse(&folder.path().join("rungc.toml"), settings)
+    {
+        let _ = rungc_functions::properties(&project);
+    }
+}
+
 fn words(text: &str) {
     for word in text.lines() {
         let _ = rungc_sim::Target::parse(word);
@@ -81,7 +95,7 @@ fn target(name: &'static str, run: fn(&str), seeds: &[&str]) -> Target {
     }
 }
 
-pub(super) fn targets() -> [Target; 5] {
+pub(super) fn targets() -> [Target; 6] {
     [
         target(
             "fleet-file",
@@ -97,6 +111,14 @@ pub(super) fn targets() -> [Target; 5] {
             &[
                 "Y000 & !Y001 | (D0 >= 10 & D1 <> -3)",
                 "\"motor left\" & pump = 1 | !(C0.value < D5.i32) & K4X000 > 7",
+            ],
+        ),
+        target(
+            "safety-functions",
+            functions,
+            &[
+                "[[property]]\nuse = \"two-hand\"\nleft = \"X000\"\nright = \"X001\"\noutput = \"Y000\"\nwithin = \"500ms\"\n",
+                "[[property]]\nmatrix = \"m.csv\"\n---\n;;Y000;Y001\n;;pump;valve\nX000;stop;X;S\nX001;level;X 2s;R\n",
             ],
         ),
         target(

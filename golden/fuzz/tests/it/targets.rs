@@ -104,7 +104,7 @@ const NO_READERS: [&str; 7] = [
 
 /// Readers and decoders, each with a target that calls it.
 #[rustfmt::skip]
-const READERS: [(&str, &str); 43] = [
+const READERS: [(&str, &str); 46] = [
     ("firmware/src/board.rs parse", "board"),
     ("firmware/src/flash.rs read", "flash-file"),
     ("firmware/src/flash/uf2.rs read", "flash-file"),
@@ -142,12 +142,15 @@ const READERS: [(&str, &str); 43] = [
     ("runtime-rt/rt/src/comm/modbus/master.rs accept", "decode-modbus-master"),
     ("runtime-rt/rt/src/comm/modbus/slave.rs answer", "decode-modbus-slave"),
     ("runtime-rt/rt/src/comm/modbus/tcp.rs answer", "decode-tcp"),
+    ("frontend/formats/src/table.rs read_table", "safety-functions"),
     ("sim/sim/src/plant/format/mod.rs parse", "machine"),
     ("sim/sim/src/plctest/mod.rs parse", "test-file"),
     ("sim/sim/src/property/parse.rs parse", "condition"),
+    ("sim/sim/src/property/token.rs parse", "condition"),
     ("sim/sim/src/protocol.rs parse", "words"),
     ("sim/sim/src/serve/decode.rs decode", "overheard"),
     ("sim/sim/src/target.rs parse", "words"),
+    ("verify/functions/src/matrix/cell.rs parse", "safety-functions"),
 ];
 
 /// The public functions in the sources that take texts or bytes and whose names say that they read them.

@@ -495,8 +495,16 @@ impl Encoder<'_> {
         if last - first < REACH {
             return (first..=last).collect();
         }
-        let is_relevant =
-            |number: &u32| (*number..number.saturating_add(count)).any(|n| self.is_named(class, n));
+        // The first named device from a number on: the numbers before it need not be looked at again.
+        let mut named = first;
+        let is_relevant = |number: &u32| {
+            let end = number.saturating_add(count);
+            named = named.max(*number);
+            while named < end && !self.is_named(class, named) {
+                named += 1;
+            }
+            named < end
+        };
         (first..=last).filter(is_relevant).collect()
     }
 

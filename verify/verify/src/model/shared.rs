@@ -63,8 +63,8 @@ pub struct Shared {
     pub aig: Aig,
     /// Operations not modelled in it.
     pub gaps: Vec<Gap>,
-    /// Names of the program's memory in the other one.
-    pub names: Names,
+    /// Names of the program's memory in the other one; `None` for the one executed first.
+    names: Option<Names>,
     /// Bits of memory with which both begin a scan, by the names in the other program.
     begins: FxHashMap<Key, Bits>,
     /// Bits that are free in both.
@@ -96,7 +96,11 @@ impl Names {
 impl Shared {
     /// The bits with which a memory of this program begins a scan, if the other program begins with them, too.
     pub(super) fn begins_as(&self, key: Key) -> Option<Bits> {
-        self.begins.get(&self.names.name(key)).cloned()
+        self.begins.get(&self.name(key)).cloned()
+    }
+
+    fn name(&self, key: Key) -> Key {
+        self.names.as_ref().map_or(key, |names| names.name(key))
     }
 }
 
@@ -117,7 +121,7 @@ impl Encoder<'_> {
                 .map_or_else(FxHashMap::default, |shared| shared.results.clone()),
             aig: self.aig.clone(),
             gaps: self.gaps.clone(),
-            names: names.clone(),
+            names: Some(names.clone()),
         }
     }
 
@@ -165,9 +169,7 @@ impl Encoder<'_> {
 
     /// Name of a memory in the program beside which this one is executed.
     fn shared_name(&self, key: Key) -> Key {
-        self.shared
-            .as_ref()
-            .map_or(key, |shared| shared.names.name(key))
+        self.shared.as_ref().map_or(key, |shared| shared.name(key))
     }
 
     /// The result of something that is not modelled: free, but the same as in the other program if that applies it to

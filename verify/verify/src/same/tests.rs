@@ -48,3 +48,18 @@ fn other_latched_devices_are_compared_and_named() {
     assert!(compared.is_proved(), "{compared:?}");
     assert_eq!(compared.latched_apart, [(DeviceClass::D, 0)]);
 }
+
+#[test]
+fn what_an_equal_program_remembers_is_the_same() {
+    for call in ["TTMR D220 K0", "PID D0 D10 D20 D220", "HOUR K1 D220 M10"] {
+        let list = format!("LD X000\n{call}\nLD> D220 K100\nOUT Y001\nEND\n");
+        let compared = compare(&module(&list), &module(&list), &Options::default());
+        assert!(compared.is_proved(), "{call}: {compared:?}");
+    }
+    // A fresh timer is not the one that has run.
+    let old = "LD X000\nTTMR D220 K0\nLD X001\nTTMR D230 K0\nLD> D220 K100\nOUT Y001\nEND\n";
+    let new = old
+        .replace("LD X000\nTTMR D220 K0\n", "")
+        .replace("D230", "D220");
+    assert!(!compare(&module(old), &module(&new), &Options::default()).is_proved());
+}

@@ -240,7 +240,10 @@ fn another_model_checker_agrees() {
     }
     let abc = abc.unwrap_or_default();
     let timer = "LD X000\nANI Y001\nOUT T0 K3\nLD T0\nOUT Y000\nLDI X000\nANI T0\nOUT Y001\nEND\n";
+    // Memory that may begin on: M501.
+    let latched = "LD M501\nAND M1\nOUT M501\nLD M502\nOUT M500\nLD M500\nAND M501\nOUT Y000\nOUT Y001\nEND\n";
     let programs = [
+        (latched.to_string(), "violated", "was asserted in frame"),
         (reverser("ANI Y000"), "proved", "Property proved"),
         (reverser("ANI X003"), "violated", "was asserted in frame"),
         (timer.to_string(), "proved", "Property proved"),

@@ -213,7 +213,12 @@ pub fn evaluate(
         .iter()
         .map(|latch| value_of(&rig.plants[0].machine, latch.key) >> latch.bit & 1 == 1)
         .collect();
-    aiger.begin(&begin);
+    aiger.begin(&[]);
+    let open = system.latches.iter().zip(&begin);
+    let open: Vec<bool> = open
+        .filter(|(latch, _)| latch.init.is_none())
+        .map(|(_, &on)| on)
+        .collect();
     btor2.begin(
         &states(system)
             .into_iter()
@@ -245,8 +250,8 @@ pub fn evaluate(
                 Some(Input::Gap(_)) | None => false,
             })
             .collect();
-        let (bad, _) = aiger.scan(&values);
         let (other, kept) = btor2.scan(&values);
+        let (bad, _) = aiger.scan(&[values, open.clone()].concat());
         all_kept &= kept;
         let state = rig.step(step);
         let expected = state == State::Happened;
