@@ -149,8 +149,8 @@ pub enum Command {
     Init(InitArgs),
     /// Learn unknown instruction codes of a vendor project from the editor's list export.
     Learn(LearnArgs),
-    /// Explain a diagnostic code, an instruction, a special device, an error code or a safety function, or print a page of
-    /// the book.
+    /// Explain a diagnostic code, an instruction, a special device, an error code or a safety function, or print a page
+    /// of the book.
     Explain(ExplainArgs),
     /// List the pages of the book, or print one.
     Book(BookArgs),
@@ -509,8 +509,8 @@ pub struct ManArgs {
 #[derive(Args, Debug)]
 pub struct ExplainArgs {
     /// A diagnostic code (E0106), an error code of the PLC (6706), an instruction (ADD, LD>=), a special device
-    /// (M8013), a model (fx3u) or a variant of one (h2u-mtq), a safety function (two-hand; `functions` lists them), or a
-    /// page that `rungc book` lists.
+    /// (M8013), a model (fx3u) or a variant of one (h2u-mtq), a safety function (two-hand; `functions` lists them), or
+    /// a page that `rungc book` lists.
     pub topic: String,
     /// PLC model whose instructions, special devices and error codes are shown. Default: all.
     #[arg(long, value_parser = plc, value_name = "MODEL")]

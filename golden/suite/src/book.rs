@@ -1,6 +1,6 @@
 //! The generated pages of the book in `docs/src`: one for each diagnostic code, one for each family of instructions,
-//! one for each safety function, one for the special devices of each model, one each for the addresses of Modbus slaves, the buffer memory of modules
-//! and the variants of models, and the lines of `SUMMARY.md` that list them.
+//! one for each safety function, one for the special devices of each model, one each for the addresses of Modbus
+//! slaves, the buffer memory of modules and the variants of models, and the lines of `SUMMARY.md` that list them.
 
 use rungc_catalogue::{Family, Inst, explain, families, special_table};
 use rungc_functions::library;

@@ -250,7 +250,7 @@ pub struct Change {
 pub enum Number {
     /// A bit or an integer.
     Integer(i64),
-    /// A float; in JSON, `null` if it is no number.
+    /// A float; in JSON, `null` if it is not a number.
     Float(f32),
 }
 

@@ -1,10 +1,10 @@
 //! Safety functions as properties with parameters, and cause-and-effect matrices.
 //!
 //! A row of rungc.toml with `use = "two-hand"` stands for the demands of a function, each of which becomes a property
-//! of its own; one with `matrix = "cause-effect.csv"` stands for those of all cells. What becomes of them are rows as a
-//! user writes them, in the language of conditions: all that proves, searches and reports properties takes them as they
-//! are. This crate must not know what a condition means. Start reading at [`properties`]; the functions are in
-//! [`library`].
+//! with its own verdict; one with `matrix = "cause-effect.csv"` stands for those of all cells. What becomes of them are
+//! rows as a user writes them, in the language of conditions: all that proves, searches and reports properties takes
+//! them as they are. This crate must not know what a condition means. Start reading at [`properties`]; the functions
+//! are in [`library`].
 #![deny(missing_docs)]
 
 mod expand;
@@ -122,8 +122,8 @@ pub enum Over {
 
 /// Form of a demand: a property of which the conditions are templates.
 ///
-/// `{name}` stands for a parameter, of a list for any of its devices; a part in `[…]` is left out if a parameter in it
-/// is not given.
+/// `{name}` stands for a parameter, of a list for any of its devices; a part in `[…]` is left out if a parameter in
+/// it is not given.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Form {
     /// It holds after no scan.

@@ -161,8 +161,8 @@ pub fn replay(
 /// The most scans of a run that is stretched.
 const STRETCHED: u32 = 20_000;
 
-/// The same run with more scans, none later than this after the one before: what is set stays as it is meanwhile. `None`
-/// if that takes too many scans.
+/// The same run with more scans, none later than this after the one before: what is set stays as it is meanwhile.
+/// `None` if that takes too many scans.
 pub(crate) fn stretched(trace: &Trace, most_ms: u32) -> Option<Trace> {
     let most_ms = most_ms.max(1);
     let mut all = trace.scans.iter().map(|scan| scan.ms / most_ms);
@@ -227,8 +227,8 @@ pub fn shortened(
 }
 
 /// The same run with what does not matter left out: inputs that stay off, changes that come later, times that are
-/// ordinary, but not above `most_ms` from one scan to the next. `happens` runs one, and says after how many scans it does
-/// what it is about. When the limit is reached, the rest stays.
+/// ordinary, but not above `most_ms` from one scan to the next. `happens` runs one, and says after how many scans it
+/// does what it is about. When the limit is reached, the rest stays.
 pub fn plain(
     happens: &dyn Fn(&Trace) -> Option<usize>,
     most_ms: u32,

@@ -89,16 +89,7 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     };
     report_undriven(&requested, &read, &subject, &external, &mut reporter)?;
     export::questions(args, &module, &requested, &options, cx)?;
-    let mut decided: Vec<(Decision, Duration)> = requested
-        .iter()
-        .map(|requested| {
-            let begin = Instant::now();
-            (
-                decide(&module, &requested.property, &options),
-                begin.elapsed(),
-            )
-        })
-        .collect();
+    let mut decided = decisions(&requested, &module, &options);
     withdraw(&mut decided, &module, &options, &assumed);
     let certificates = export::proofs(
         args,
@@ -138,6 +129,20 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     conclude(&grounds, reporter, cx)?;
     let outcomes = results.iter().map(report::Result::outcome);
     Ok(outcomes.max().unwrap_or(Outcome::Success))
+}
+
+/// Decides properties, each with the time that this takes.
+fn decisions(
+    requested: &[RequestedProperty],
+    module: &Module,
+    options: &Options,
+) -> Vec<(Decision, Duration)> {
+    let decisions = requested.iter().map(|requested| {
+        let begin = Instant::now();
+        let decision = decide(module, &requested.property, options);
+        (decision, begin.elapsed())
+    });
+    decisions.collect()
 }
 
 /// Reports what was decided, and writes what is requested about it.

@@ -15,7 +15,7 @@ super::codes! {
 
     PROPERTY_OF_UNDRIVEN = "W0802" "property-of-undriven" Warning None,
     "a property is about a device that nothing drives",
-    "The property names a device that no instruction writes, that is no input, and that nothing outside the program writes as far as rungc knows: an output without a coil, or a relay or register that the program does not use. Such an output is always off, so that a property of it is proved of any program; any other such device may have any value, so that a property of it is easily violated. Is the number right? What a panel or another PLC writes is named in rungc.toml, `[hmi] writes = \"M500\"`, or with `--free`. Special devices, which the PLC itself drives, are not reported.",
+    "The property names a device that no instruction writes, that is not an input, and that nothing outside the program writes as far as rungc knows: an output without a coil, or a relay or register that the program does not use. Such an output is always off, so that a property of it is proved of any program; any other such device may have any value, so that a property of it is easily violated. Is the number right? What a panel or another PLC writes is named in rungc.toml, `[hmi] writes = \"M500\"`, or with `--free`. Special devices, which the PLC itself drives, are not reported.",
     wrong: "",
     right: "";
 

@@ -14,7 +14,8 @@ fn fleet(text: &str) {
     let _ = Fleet::parse(Path::new("fleet.toml"), text);
 }
 
-/// A condition, which is read again as it is shown; every word that begins with a small letter stands for two devices, as comments may.
+/// A condition, which is read again as it is shown; every word that begins with a small letter stands for two devices,
+/// as comments may.
 fn condition(text: &str) {
     let names = |word: &str| match word.starts_with(|c: char| c.is_lowercase()) {
         true => ["Y000", "D5"]

@@ -5,7 +5,7 @@ use super::naming::Named;
 use super::program::{self, CaseProgram, RawProgram, Tested};
 use super::raw::{Map, Near, RawCase, RawFile, RawNames, RawPlc, RawRow, RawScenario, Scalar};
 use super::rules::RawOverTime;
-use super::serial::{self, PortId};
+use super::serial::{self, PortId, Protocol};
 use super::{Case, Check, OtherPlc, Rejects, Setting, Step, TestFile, Value};
 use crate::plant::{self, Description};
 use crate::problem::{self, Problem};
@@ -286,17 +286,7 @@ impl Reader<'_> {
         let wires = raw.wire.iter();
         let wires = wires.map(|line| line.iter().filter_map(|port| self.port(port)).collect());
         let wires = wires.collect();
-        let mut serve = Vec::new();
-        for (port, protocol) in raw.serve {
-            match self.port(&port).map(|port| port.id) {
-                Some(PortId::Tcp(number, _)) => serve.push((number, protocol)),
-                Some(PortId::Serial(_) | PortId::Can) => {
-                    let message = "a server is named `TCP:502`".to_string();
-                    self.report(port.span().start, message);
-                }
-                None => {}
-            }
-        }
+        let serve = self.servers(raw.serve);
         let init = self.settings(raw.init);
         let steps: Vec<Step> = self.steps(raw.step);
         let rules = self.rules(RawOverTime {
@@ -343,6 +333,22 @@ impl Reader<'_> {
             trace,
             check,
         }
+    }
+
+    /// Servers by their ports, with the protocols that they speak.
+    fn servers(&mut self, raw: Map<Protocol>) -> Vec<(u16, Protocol)> {
+        let mut found = Vec::new();
+        for (port, protocol) in raw {
+            match self.port(&port).map(|port| port.id) {
+                Some(PortId::Tcp(number, _)) => found.push((number, protocol)),
+                Some(PortId::Serial(_) | PortId::Can) => {
+                    let message = "a server is named `TCP:502`".to_string();
+                    self.report(port.span().start, message);
+                }
+                None => {}
+            }
+        }
+        found
     }
 
     /// The identifiers of a case's requirements.

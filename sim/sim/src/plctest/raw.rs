@@ -102,7 +102,7 @@ impl RawRules {
     }
 }
 
-/// Something that goes on until something else happens.
+/// Something that continues until something else happens.
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawStays {

@@ -27,7 +27,7 @@ pub(super) struct Pass<'p, D> {
 }
 
 impl<'p, D: Devices> Pass<'p, D> {
-    /// After a scan that began so much later than the one before.
+    /// After a scan that began this much later than the one before.
     pub(super) fn new(devices: &'p D, elapsed_ms: u32, memory: &'p mut Memory) -> Self {
         Pass {
             devices,

@@ -43,9 +43,9 @@ pub enum Condition {
     Compare(CmpOp, Number, Number),
     /// As many of several as this hold.
     Count {
-        /// At least so many.
+        /// At least this many.
         least: u32,
-        /// At most so many.
+        /// At most this many.
         most: u32,
         /// The conditions.
         of: Vec<Condition>,

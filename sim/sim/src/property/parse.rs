@@ -318,7 +318,7 @@ impl Reader<'_> {
         }
     }
 
-    /// `was(…)` and its like, `exactly one of (…)` and its like.
+    /// `was(…)`, `exactly one of (…)` and similar ones.
     fn function(&mut self) -> Result<Option<Value>, ParseError> {
         let at = self.at();
         let opens = |words: usize| {

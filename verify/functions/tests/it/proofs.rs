@@ -1,5 +1,5 @@
-//! Safety functions: of each, the right program has all properties, the wrong one lacks the one that its page names, and
-//! every change of an instruction of the right program is refuted, proved to change nothing, or listed here with a
+//! Safety functions: of each, the right program has all properties, the wrong one lacks the one that its page names,
+//! and every change of an instruction of the right program is refuted, proved to change nothing, or listed here with a
 //! reason.
 
 use rungc_coverage::mutants::of_program;

@@ -290,6 +290,27 @@ fn float_comparison(random: &mut Random) -> Written {
 }
 
 /// A condition of several, or of several scans.
+fn count(a: Written, depth: u32, random: &mut Random) -> Written {
+    let mut of = vec![a];
+    of.extend((0..random.below(3)).map(|_| any(depth - 1, random)));
+    let texts: Vec<&str> = of.iter().map(|a| a.text.as_str()).collect();
+    let wanted = 1 + random.below(of.len() as u64) as usize;
+    let (kind, holds) = pick(
+        &[
+            ("exactly", usize::eq as fn(&usize, &usize) -> bool),
+            ("at most", usize::le),
+            ("at least", usize::ge),
+        ],
+        random,
+    );
+    Written {
+        text: format!("{kind} {wanted} of ({})", texts.join(", ")),
+        holds: Box::new(move |all, n| {
+            holds(&of.iter().filter(|a| (a.holds)(all, n)).count(), &wanted)
+        }),
+    }
+}
+
 fn compound(depth: u32, random: &mut Random) -> Written {
     let a = any(depth - 1, random);
     match random.below(9) {
@@ -333,26 +354,7 @@ fn compound(depth: u32, random: &mut Random) -> Written {
                 }),
             }
         }
-        6 => {
-            let mut of = vec![a];
-            of.extend((0..random.below(3)).map(|_| any(depth - 1, random)));
-            let texts: Vec<&str> = of.iter().map(|a| a.text.as_str()).collect();
-            let wanted = 1 + random.below(of.len() as u64) as usize;
-            let (kind, holds) = pick(
-                &[
-                    ("exactly", usize::eq as fn(&usize, &usize) -> bool),
-                    ("at most", usize::le),
-                    ("at least", usize::ge),
-                ],
-                random,
-            );
-            Written {
-                text: format!("{kind} {wanted} of ({})", texts.join(", ")),
-                holds: Box::new(move |all, n| {
-                    holds(&of.iter().filter(|a| (a.holds)(all, n)).count(), &wanted)
-                }),
-            }
-        }
+        6 => count(a, depth, random),
         join => {
             let b = any(depth - 1, random);
             let sign = pick(&["&", "|", "="], random);

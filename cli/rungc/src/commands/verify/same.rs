@@ -26,13 +26,7 @@ use std::path::Path;
 /// Compares a program with an older one.
 pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     let subject = subject::one(&args.input, cx)?;
-    let before = subject::one(
-        &Input {
-            file: Some(old.to_owned()),
-            reading: args.input.reading.clone(),
-        },
-        cx,
-    )?;
+    let before = subject::one(&input_of(args, old), cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let both = read(&before, &mut reporter)
         .and_then(|old| read(&subject, &mut reporter).map(|new| (old, new)));
@@ -106,6 +100,14 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     );
     super::deliver(args, reporter, text, &summary, cx)?;
     Ok(outcomes.max().unwrap_or(Outcome::Success))
+}
+
+/// The older program, which is read as the newer one.
+fn input_of(args: &VerifyArgs, old: &Path) -> Input {
+    Input {
+        file: Some(old.to_owned()),
+        reading: args.input.reading.clone(),
+    }
 }
 
 fn is_same(output: &Output) -> bool {

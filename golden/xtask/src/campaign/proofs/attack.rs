@@ -141,7 +141,7 @@ struct Attack<'m, 'c> {
     variety: Vec<u32>,
     /// Distance at power-on.
     far: Option<f64>,
-    /// Last value of each of the watched devices of each program: what does not change is no news.
+    /// Last value of each of the watched devices of each program: what stays as it was adds nothing.
     last: Vec<i64>,
     /// The closest places with their distances, the closest first.
     closest: Vec<(f64, usize)>,
@@ -248,8 +248,8 @@ impl Attack<'_, '_> {
             .collect()
     }
 
-    /// A place whose feature few scans have shown, and from which few runs have continued: first a device, then one of its
-    /// features.
+    /// A place whose feature few scans have shown, and from which few runs have continued: first a device, then one of
+    /// its features.
     fn rare(&mut self) -> Option<usize> {
         let count = self.weights.len().max(1);
         // What has never changed leads nowhere.
@@ -504,7 +504,7 @@ pub fn value_of(machine: &impl Plc, key: Key) -> i64 {
     found.unwrap_or(0)
 }
 
-/// Values that count as one: small ones are exact, of others four are told apart from one power of two to the next.
+/// Values that count as one: small ones are exact, of others there are four from one power of two to the next.
 fn alike(value: i64) -> i64 {
     match value.unsigned_abs() {
         0..16 => value,

@@ -178,8 +178,8 @@ pub fn question(pools: &Pools, seed: u64, effort: u64) -> Option<Question> {
     Some(question)
 }
 
-/// Returns true if a scan executes few instructions for certain, and its logic is small: each call of a routine and each
-/// iteration is part of it.
+/// Returns true if a scan executes few instructions for certain, and its logic is small: each call of a routine and
+/// each iteration is part of it.
 fn is_short(text: &str) -> bool {
     /// The register that counts how often a program jumps back.
     const PASSES: &str = "D120";

@@ -86,7 +86,7 @@ pub enum Goal<'c> {
 /// State of a run after a scan.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum State {
-    /// It goes on.
+    /// It continues.
     Lives,
     /// Nothing is claimed of what follows: an assumption is broken, or the PLC is not in RUN.
     Over,
