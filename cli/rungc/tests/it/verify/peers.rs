@@ -123,7 +123,7 @@ fn sat_solvers_confirm_that_outputs_are_the_same() {
     let programs = [
         ([LINE, rewritten.as_str()], "memory.cnf"),
         (COUNTED, "Y000-bits-step.cnf"),
-        (UP_AND_DOWN, "Y000-memory.cnf"),
+        (UP_AND_DOWN, "Y000-end.cnf"),
     ];
     for ([old, new], needed) in programs {
         let folder = folder(&[("old.il", old.as_bytes()), ("new.il", new.as_bytes())]);
