@@ -102,8 +102,8 @@ pub(super) static MODE_SELECTION: Function = Function {
         .over(Over::Each("modes")),
         reachable("output in {a} is possible", "{output} & {a}").over(Over::Each("modes")),
     ],
-    limits: "Who may select a mode (key or password), and what each mode permits: give those demands as properties of \
-             their own, such as `never = \"M1 & D0 > 100\"` for a reduced speed.",
+    limits: "Who may select a mode (key or password), and what each mode permits: give those demands as separate \
+             properties, such as `never = \"M1 & D0 > 100\"` for a reduced speed.",
     example: "modes = [\"M0\", \"M1\"]\noutput = \"Y000\"\nstart = \"X002\"",
     wrong: "LD X000
 OUT M0       ; automatic
