@@ -229,17 +229,15 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
         property,
         options,
     };
-    let gaps = BTreeSet::from_iter(gaps).into_iter().collect();
+    let mut gaps = BTreeSet::from_iter(gaps);
     let latches = system.latches.len();
     let answer = search(&question, &options.world, &system.into(), &limit);
     // A proof holds for whatever is there after STOP; it is named where it may be the reason that there is none.
-    let is_decided = !matches!(answer.verdict, Verdict::Undecided(_));
-    let gaps: Vec<Gap> = gaps;
-    let gaps = gaps
-        .into_iter()
-        .filter(|gap| !(is_decided && gap.what == AFTER_STOP));
+    if !matches!(answer.verdict, Verdict::Undecided(_)) {
+        gaps.retain(|gap| gap.what != AFTER_STOP);
+    }
     Decision {
-        gaps: gaps.collect(),
+        gaps: gaps.into_iter().collect(),
         unwritten,
         free,
         latches,
