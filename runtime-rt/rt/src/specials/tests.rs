@@ -65,7 +65,7 @@ impl Plc for Watched {
     }
 
     fn state(&mut self, slot: u16) -> &mut State {
-        panic!("private memory {slot} is used");
+        self.plc.state(slot)
     }
 
     fn sys(&self) -> &Sys {
