@@ -185,7 +185,7 @@ fn build_c(
     let options: Vec<&str> = machine().chain([level.option()]).collect();
     let mut objects = subject.compile(CORTEX_M4F.cc, &options)?;
     objects.program.push(objects.adaptor);
-    if code == Code::C && ladder.kind.calls() {
+    if code == Code::C && subject::calls_runtime(ladder)? {
         objects.program.push(tools::runtime(Some(&CORTEX_M4F))?);
     }
     Ok((objects.program, format!("{prefix}_scan")))
@@ -351,11 +351,11 @@ pub(crate) fn board_folder() -> Result<tempfile::TempDir> {
     Ok(folder)
 }
 
-/// All implementations.
+/// All implementations; emitted Rust, whose build takes longest, comes last.
 pub const CODES: [Code; 3] = [Code::Hand, Code::C, Code::Rust];
 
 /// The table of bytes.
-pub fn size_table(sizes: &[u32]) -> Result<Table> {
+pub fn size_table(kinds: &[Kind], sizes: &[u32], codes: &[Code]) -> Result<Table> {
     let mut table = Table::new(
         "Cortex-M4, `-Os` (Rust: `opt-level = \"s\"`)",
         &[
@@ -369,10 +369,10 @@ pub fn size_table(sizes: &[u32]) -> Result<Table> {
             "devices in RAM",
         ],
     );
-    for kind in Kind::ALL {
+    for &kind in kinds {
         for &size in sizes {
             let ladder = Ladder::new(kind, size);
-            let all = measure(&ladder, &CODES, Level::Size, false)?;
+            let all = measure(&ladder, codes, Level::Size, false)?;
             let hand = hand_figure(&all, |f| Some(f.flash as f64));
             for Measured { code, figures } in all {
                 let mut row = begin_row(&ladder, code);
@@ -395,7 +395,7 @@ pub fn size_table(sizes: &[u32]) -> Result<Table> {
 }
 
 /// The table of instructions.
-pub fn count_table(sizes: &[u32]) -> Result<Table> {
+pub fn count_table(kinds: &[Kind], sizes: &[u32], codes: &[Code]) -> Result<Table> {
     let mut table = Table::new(
         "Instructions of a scan on a Cortex-M4 (QEMU, `-icount shift=0`)",
         &[
@@ -408,11 +408,11 @@ pub fn count_table(sizes: &[u32]) -> Result<Table> {
             "× hand",
         ],
     );
-    for kind in Kind::ALL {
+    for &kind in kinds {
         for &size in sizes {
             let ladder = Ladder::new(kind, size);
             for level in [Level::Size, Level::Speed] {
-                let all = measure(&ladder, &CODES, level, true)?;
+                let all = measure(&ladder, codes, level, true)?;
                 let hand = hand_figure(&all, |f| f.instructions);
                 for Measured { code, figures } in all {
                     let mut row = begin_row(&ladder, code);

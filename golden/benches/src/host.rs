@@ -27,6 +27,10 @@ pub struct Effort {
     pub rounds: u32,
     /// About how long a turn is.
     pub turn_us: u32,
+    /// Emitted C for many instances is built as well.
+    pub lanes: bool,
+    /// Emitted Rust is built as well, which takes longest.
+    pub rust: bool,
 }
 
 /// One implementation, and what came out.
@@ -97,25 +101,24 @@ struct Build {
 }
 
 /// Builds all implementations, checks that they do the same, and times them. With no rounds it only checks.
-pub fn time(ladder: &Ladder, compilers: &[&str], rust: bool, effort: Effort) -> Result<Vec<Timed>> {
+pub fn time(ladder: &Ladder, compilers: &[&str], effort: Effort) -> Result<Vec<Timed>> {
     let folder = tools::folder()?;
     let mut builds = Vec::new();
+    let fits = effort.lanes && ladder.steps <= LANES_STEPS && subject::runs_in_lanes(ladder)?;
     for compiler in compilers {
-        // Programs that call the runtime do not run in lanes.
-        let fits = !ladder.kind.calls() && ladder.steps <= LANES_STEPS;
         let lanes = fits.then_some(Code::Lanes);
         for code in [Code::Hand, Code::C].into_iter().chain(lanes) {
             builds.push(build_c(ladder, code, compiler, folder.path()));
         }
     }
-    if rust {
+    if effort.rust {
         builds.push(build_rust(ladder, folder.path()));
     }
     let missing = |b: &&Build| matches!(&b.objects, Err(problem) if !problem.is_missing());
     if let Some(i) = builds.iter().position(|b| missing(&b)) {
         return builds.swap_remove(i).objects.map(|_| Vec::new());
     }
-    let runtime = match ladder.kind.calls() {
+    let runtime = match subject::calls_runtime(ladder)? {
         true => Some(tools::runtime_object(folder.path())?),
         false => None,
     };
@@ -243,13 +246,13 @@ pub fn table(kind: Kind, sizes: &[u32], effort: Effort) -> Result<Table> {
             "× hand, clang",
         ],
     );
-    if kind.calls() {
+    if kind == Kind::Control {
         table.columns.push("beyond hand, ns/call".to_string());
     }
     for &size in sizes {
         let ladder = Ladder::new(kind, size);
         eprintln!("{}, {} steps ...", kind.name(), ladder.steps);
-        let all = match time(&ladder, &COMPILERS, true, effort) {
+        let all = match time(&ladder, &COMPILERS, effort) {
             Err(problem) if problem.is_missing() => {
                 let steps = Cell::count(ladder.steps.into());
                 table.row([steps, "all".into(), problem.to_string().into()]);
@@ -275,7 +278,7 @@ pub fn table(kind: Kind, sizes: &[u32], effort: Effort) -> Result<Table> {
                         Some(ratio) => Cell::number(ratio, 2),
                         None => "–".into(),
                     }));
-                    if kind.calls() {
+                    if kind == Kind::Control {
                         let calls = ladder.calls() as f64;
                         let hand = timed.hand(&all).filter(|_| timed.code != Code::Hand);
                         let longer = hand.and_then(|hand| timed.longer(hand));
@@ -310,7 +313,7 @@ pub fn calls_table(count: u32, effort: Effort) -> Result<Table> {
     for what in Called::ALL {
         eprintln!("{} ...", what.name());
         let ladder = Ladder::of_calls(what, count);
-        let all = time(&ladder, &COMPILERS, true, effort)?;
+        let all = time(&ladder, &COMPILERS, effort)?;
         for timed in all.iter().filter(|timed| timed.code != Code::Hand) {
             let mut row: Vec<Cell> = vec![
                 what.name().into(),

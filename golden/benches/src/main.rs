@@ -3,9 +3,11 @@
 
 use clap::{Parser, ValueEnum};
 use rungc_benches::compile::{self, Work};
+use rungc_benches::embedded::CODES;
 use rungc_benches::host::{self, Effort};
 use rungc_benches::ladder::Kind;
 use rungc_benches::problem::Result;
+use rungc_benches::subject::Code;
 use rungc_benches::table::Table;
 use rungc_benches::{checks, embedded, interp, page, pulse_counts, pulses, suites, tools};
 use std::path::{Path, PathBuf};
@@ -27,12 +29,27 @@ struct Args {
     /// Sections to measure; by default all.
     #[arg(long, value_enum, value_delimiter = ',', value_name = "LIST")]
     only: Vec<Section>,
+    /// Kinds of program for `size` and `icount`; by default all.
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "LIST")]
+    kinds: Vec<Kind>,
+    /// Leave out code whose build takes long: `lanes` is emitted C for many instances.
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "LIST")]
+    without: Vec<Slow>,
     /// Do one piece of work, which another process measures.
     #[arg(long, hide = true, requires = "steps")]
     work: Option<Work>,
     /// Length of the program for --work.
     #[arg(long, hide = true)]
     steps: Option<u32>,
+}
+
+/// Code whose build takes long.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+enum Slow {
+    /// Emitted C for many instances.
+    Lanes,
+    /// Emitted Rust.
+    Rust,
 }
 
 /// Section of the measurements.
@@ -48,6 +65,18 @@ enum Section {
     Process,
     /// Time of a scan with PID loops and limits, and of a call of the runtime.
     Control,
+    /// Time of a scan of step ladders.
+    Sequence,
+    /// Time of a scan with tables behind index registers.
+    Index,
+    /// Time of a scan with blocks of words.
+    Recipe,
+    /// Time of a scan with digits and lamps.
+    Display,
+    /// Time of a scan with comparisons.
+    Compare,
+    /// Time of a scan with floats and limits.
+    Float,
     /// Bytes on a microcontroller.
     Size,
     /// Instructions of a scan on a microcontroller.
@@ -65,23 +94,30 @@ enum Section {
 }
 
 impl Section {
-    fn tables(self, quick: bool) -> Result<Vec<Table>> {
+    fn tables(self, args: &Args) -> Result<Vec<Table>> {
+        let quick = args.quick;
         match self {
-            Section::Contacts => time(Kind::Contacts, quick),
-            Section::Stations => time(Kind::Stations, quick),
-            Section::Mixed => time(Kind::Mixed, quick),
-            Section::Process => time(Kind::Process, quick),
+            Section::Contacts => time(Kind::Contacts, args),
+            Section::Stations => time(Kind::Stations, args),
+            Section::Mixed => time(Kind::Mixed, args),
+            Section::Process => time(Kind::Process, args),
             Section::Control => {
-                let mut tables = time(Kind::Control, quick)?;
-                tables.push(host::calls_table(100, effort(quick))?);
+                let mut tables = time(Kind::Control, args)?;
+                tables.push(host::calls_table(100, effort(args))?);
                 Ok(tables)
             }
+            Section::Sequence => time(Kind::Sequence, args),
+            Section::Index => time(Kind::Index, args),
+            Section::Recipe => time(Kind::Recipe, args),
+            Section::Display => time(Kind::Display, args),
+            Section::Compare => time(Kind::Compare, args),
+            Section::Float => time(Kind::Float, args),
             Section::Size => Ok(vec![
-                embedded::size_table(embedded_sizes(quick))?,
+                embedded::size_table(args.kinds(), embedded_sizes(quick), args.codes())?,
                 embedded::image_table()?,
             ]),
             Section::Icount => Ok(vec![
-                embedded::count_table(embedded_sizes(quick))?,
+                embedded::count_table(args.kinds(), embedded_sizes(quick), args.codes())?,
                 pulse_counts::table()?,
             ]),
             Section::Compile => Ok(vec![
@@ -89,7 +125,7 @@ impl Section {
                 compile::native_table(16_000)?,
             ]),
             Section::Checks => Ok(vec![checks::table(if quick { 500 } else { 20_000 })]),
-            Section::Interp => Ok(vec![interp::table(10_000, effort(quick))?]),
+            Section::Interp => Ok(vec![interp::table(10_000, effort(args))?]),
             Section::Pulses => Ok(vec![pulses::table(if quick { 2 } else { 10 })?]),
             Section::Tests => Ok(vec![match quick {
                 true => suites::table(1000, 100, 1000)?,
@@ -99,20 +135,41 @@ impl Section {
     }
 }
 
-fn effort(quick: bool) -> Effort {
-    Effort {
-        rounds: if quick { 21 } else { 51 },
-        turn_us: 2000,
+impl Args {
+    fn kinds(&self) -> &[Kind] {
+        if self.kinds.is_empty() {
+            &Kind::ALL
+        } else {
+            &self.kinds
+        }
+    }
+
+    fn codes(&self) -> &[Code] {
+        if self.without.contains(&Slow::Rust) {
+            &CODES[..2]
+        } else {
+            &CODES
+        }
     }
 }
 
-fn time(kind: Kind, quick: bool) -> Result<Vec<Table>> {
-    let sizes: &[u32] = match (quick, kind) {
+fn effort(args: &Args) -> Effort {
+    Effort {
+        rounds: if args.quick { 21 } else { 51 },
+        turn_us: 2000,
+        lanes: !args.without.contains(&Slow::Lanes),
+        rust: !args.without.contains(&Slow::Rust),
+    }
+}
+
+fn time(kind: Kind, args: &Args) -> Result<Vec<Table>> {
+    let sizes: &[u32] = match (args.quick, kind) {
         (true, _) => &[1000],
         (false, Kind::Stations) => &[1000, 5000, 100_000],
+        (false, Kind::Sequence) => &[1000, 5000, 10_000],
         (false, _) => &[1000, 10_000, 100_000],
     };
-    Ok(vec![host::table(kind, sizes, effort(quick))?])
+    Ok(vec![host::table(kind, sizes, effort(args))?])
 }
 
 /// Lengths of programs that fit into a microcontroller.
@@ -147,7 +204,7 @@ fn main() -> ExitCode {
         if !args.only.is_empty() && !args.only.contains(&section) {
             continue;
         }
-        match section.tables(args.quick) {
+        match section.tables(&args) {
             Ok(tables) => {
                 tables.iter().for_each(|table| println!("{table}"));
                 all.extend(tables);

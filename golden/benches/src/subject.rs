@@ -4,8 +4,8 @@
 use crate::ladder::{Device, FLAGS, Ladder, TERMINALS, hand};
 use crate::problem::{Problem, Result};
 use crate::tools;
-use rungc_codegen_c::lanes::LANES;
-use rungc_ir::Module;
+use rungc_codegen_c::lanes::{self, LANES};
+use rungc_ir::{Module, walk};
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
 use rungc_runtime_sources::cache::{self, Slot};
@@ -92,6 +92,22 @@ pub struct Objects {
 /// The program as the compiler's IR, with names that begin with `name`.
 pub fn module(ladder: &Ladder, name: &str) -> Result<Module> {
     module_of(&ladder.list(), name)
+}
+
+/// Returns true if emitted C of a program calls the runtime.
+pub fn calls_runtime(ladder: &Ladder) -> Result<bool> {
+    let mut calls = false;
+    for function in &module(ladder, "program")?.functions {
+        walk::statements(&function.body, &mut |stmt| {
+            calls |= walk::calls_runtime(stmt)
+        });
+    }
+    Ok(calls)
+}
+
+/// Returns true if emitted C can run many instances of a program at once.
+pub fn runs_in_lanes(ladder: &Ladder) -> Result<bool> {
+    Ok(lanes::refusal(&module(ladder, "program")?).is_none())
 }
 
 /// A list as the compiler's IR.
@@ -196,7 +212,7 @@ fn hand(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
         false => format!("(void)now_ms;\n    {prefix}_scan(&plc);"),
         true => format!("{prefix}_scan(&plc, now_ms - last_ms);\n    last_ms = now_ms;"),
     };
-    let reset = match ladder.kind.calls() {
+    let reset = match hand::has_init(ladder) {
         true => format!("{prefix}_init(&plc);"),
         false => "memset(&plc, 0, sizeof plc);".to_string(),
     };
@@ -248,7 +264,7 @@ fn emitted_c(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
 
 /// C that rungc emits for many instances. An input changes in half of them at random, and always in the first,
 /// which is what is compared.
-fn lanes(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
+fn emitted_lanes(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
     let folder = folder.join(prefix);
     let module = module(ladder, prefix)?;
     let options = rungc_codegen_c::Options {
@@ -328,7 +344,7 @@ impl CSubject {
         match code {
             Code::Hand => hand(ladder, prefix, folder),
             Code::C => emitted_c(ladder, prefix, folder),
-            Code::Lanes => lanes(ladder, prefix, folder),
+            Code::Lanes => emitted_lanes(ladder, prefix, folder),
             Code::Rust => Err(Problem::Wrong("Rust is not C".to_string())),
         }
     }

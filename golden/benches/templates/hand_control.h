@@ -1,4 +1,4 @@
-/* PID loops and limits, as firmware has them. A loop has the words that an operator panel addresses. */
+/* PID loops, as firmware has them. A loop has the words that an operator panel addresses. */
 #include <math.h>
 
 struct pid {
@@ -55,17 +55,4 @@ static inline void pid_run(struct pid *c, int16_t target, int16_t measured, int1
   c->ev1 = ev;
   c->raw_pv = measured;
   *output = (int16_t)roundf(c->mv);
-}
-
-static inline int16_t limit(int16_t low, int16_t high, int16_t value) {
-  return value < low ? low : value > high ? high : value;
-}
-
-/* How far a value is from a range. */
-static inline int16_t band(int16_t low, int16_t high, int16_t value) {
-  return (int16_t)(value < low ? value - low : value > high ? value - high : 0);
-}
-
-static inline int16_t zone(int16_t below, int16_t above, int16_t value) {
-  return (int16_t)(value < 0 ? value + below : value > 0 ? value + above : 0);
 }

@@ -1,4 +1,4 @@
-/* Timers, counters, edges and long words, as firmware has them. */
+/* Timers and counters, as firmware has them. */
 
 struct timer { uint32_t elapsed_ms; bool on, done; };
 struct counter { int16_t value; bool on, done; };
@@ -25,21 +25,4 @@ static inline void counter_run(struct counter *c, bool on, int16_t preset) {
     }
   }
   c->on = on;
-}
-
-static inline bool rising(bool *last, bool on) {
-  const bool edge = on & !*last;
-  *last = on;
-  return edge;
-}
-
-/* A long is two registers; the machine's words are little-endian, too. */
-static inline uint32_t get_long(const int16_t *d) {
-  uint32_t value;
-  memcpy(&value, d, sizeof value);
-  return value;
-}
-
-static inline void put_long(int16_t *d, uint32_t value) {
-  memcpy(d, &value, sizeof value);
 }

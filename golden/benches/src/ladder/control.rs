@@ -30,6 +30,12 @@ pub const AREA: u32 = 25;
 const ALWAYS: u32 = 8000;
 const FIRST_SCAN: u32 = 8002;
 
+/// The contact that is always on.
+pub const ALWAYS_ON: Contact = Contact {
+    device: (M, ALWAYS),
+    negated: false,
+};
+
 /// Instruction driven by a rung of `control`. Numbers are those of devices D.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Control {
@@ -255,6 +261,7 @@ impl Ladder {
             kind: Kind::Control,
             steps: 10 * count,
             rungs,
+            sequences: Vec::new(),
         }
     }
 }

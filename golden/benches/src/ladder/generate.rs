@@ -1,8 +1,9 @@
 //! Random programs. The order in which numbers are drawn is part of what a seed means.
 
+use super::driven::Form;
 use super::{
-    Action, Chain, Contact, Control, Device, FLAGS, Kind, Ladder, Operation, Process, RELAYS, Rung,
-    TERMINALS, control,
+    Action, Chain, Contact, Control, Device, Driven, FLAGS, Kind, Ladder, Operation, Process,
+    RELAYS, Rung, TERMINALS, control, driven, sequence,
 };
 use crate::random::Random;
 use rungc_syntax::DeviceClass::{self, M, X, Y};
@@ -34,16 +35,20 @@ pub fn ladder(kind: Kind, steps: u32, seed: u32) -> Ladder {
         counters: 0,
         loops: 0,
     };
+    let mut sequences = Vec::new();
     let mut rungs = match kind {
         Kind::Stations => generator.stations(steps),
-        Kind::Contacts | Kind::Mixed | Kind::Process | Kind::Control => {
-            generator.rungs(kind, steps)
+        Kind::Sequence => {
+            (sequences, generator.steps) = sequence::sequences(&mut generator.random, steps);
+            Vec::new()
         }
+        _ => generator.rungs(kind, steps),
     };
     rungs.splice(0..0, control::settings_of(generator.loops));
     Ladder {
         kind,
         rungs,
+        sequences,
         steps: generator.steps + 1,
     }
 }
@@ -128,9 +133,16 @@ impl Generator {
 
     fn rungs(&mut self, kind: Kind, steps: u32) -> Vec<Rung> {
         let mut rungs = Vec::new();
+        let draw = driven::of(kind);
         while self.steps + 1 < steps {
             if kind == Kind::Control && self.random.chance(0.4) {
                 rungs.push(self.control().rung());
+                continue;
+            }
+            if let Some(draw) = draw
+                && self.random.chance(0.45)
+            {
+                rungs.push(self.driven(draw));
                 continue;
             }
             let chain = self.chain();
@@ -158,6 +170,25 @@ impl Generator {
             });
         }
         rungs
+    }
+
+    /// Adds a rung with instructions of a kind.
+    fn driven(&mut self, draw: fn(&mut Random) -> Driven) -> Rung {
+        let driven = draw(&mut self.random);
+        self.steps += driven.steps;
+        let chain = match driven.form {
+            Form::Always => Chain {
+                first: control::ALWAYS_ON,
+                rest: Vec::new(),
+            },
+            Form::Driven | Form::Contacts => self.chain(),
+        };
+        let coil = (driven.form == Form::Contacts).then(|| self.coil_device());
+        Rung {
+            chain,
+            block: None,
+            action: Action::Driven(driven, coil),
+        }
     }
 
     /// Adds an instruction of `control`; a loop with its settings.
@@ -269,6 +300,10 @@ impl Generator {
 
     /// OUT of an output, or of the next relay.
     fn coil(&mut self) -> Action {
+        Action::Coil(self.coil_device())
+    }
+
+    fn coil_device(&mut self) -> Device {
         self.steps += 1;
         let output = self.random.chance(0.1) && self.outputs < TERMINALS;
         let (class, next): (DeviceClass, _) = match output {
@@ -278,6 +313,6 @@ impl Generator {
         let number = *next;
         *next += 1;
         self.coils = self.coils.min(RELAYS - 1);
-        Action::Coil((class, number))
+        (class, number)
     }
 }

@@ -3,47 +3,67 @@
 //! does not slow it down: a timer counts milliseconds and knows no current value in its units, arithmetic sets no
 //! flags.
 
+use super::driven::Form;
 use super::{Action, Chain, Contact, Device, Ladder, Operation, RELAYS, Rung, TERMINALS};
-use super::{Kind, control, process};
+use super::{Kind, compare, control, display, float, index, process, recipe, sequence};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
 /// Rungs of a function.
 const PART: usize = 200;
 
-/// Timers, counters and registers of `mixed`; a long at the last register needs one more.
-const MIXED_DEVICES: &str = "struct timer T[200]; struct counter C[100]; int16_t D[201];";
+/// A header that programs include.
+macro_rules! template {
+    ($name:literal) => {
+        include_str!(concat!("../../templates/hand_", $name, ".h"))
+    };
+}
 
-/// Header of `mixed`.
-const MIXED: &str = include_str!("../../templates/hand_mixed.h");
+/// Headers of a kind, and members of the struct beside bits: for `mixed`, a long at the last register needs one more.
+fn parts(ladder: &Ladder) -> (&'static [&'static str], String) {
+    let registers = |count: u32| format!(" int16_t D[{count}];");
+    match ladder.kind {
+        Kind::Contacts | Kind::Stations => (&[], String::new()),
+        Kind::Mixed => {
+            let edges = ladder.rungs.iter().filter(|r| has_edge(&r.action)).count();
+            let timers = "struct timer T[200]; struct counter C[100];";
+            let members = format!(" {timers}{} bool edge[{}];", registers(201), edges.max(1));
+            (&[template!("words"), template!("mixed")], members)
+        }
+        Kind::Process => (&[template!("process")], registers(process::REGISTERS)),
+        Kind::Control => {
+            let loops = format!(" union loop loop[{}];", control::LOOPS);
+            let members = registers(control::REGISTERS) + &loops;
+            (&[template!("limits"), template!("control")], members)
+        }
+        Kind::Sequence => {
+            let count = ladder.sequences.len();
+            let members = format!(" bool stopped; struct sequence sequence[{count}];");
+            (&[template!("words"), template!("sequence")], members)
+        }
+        Kind::Index => (&[template!("words")], registers(index::REGISTERS)),
+        Kind::Recipe => (&[template!("process")], registers(recipe::REGISTERS)),
+        Kind::Display => (&[template!("display")], registers(display::REGISTERS)),
+        Kind::Compare => (&[template!("words")], registers(compare::REGISTERS)),
+        Kind::Float => {
+            let headers: &[&str] = &[template!("process"), template!("limits")];
+            (headers, registers(float::REGISTERS))
+        }
+    }
+}
 
-/// Header of `process`.
-const PROCESS: &str = include_str!("../../templates/hand_process.h");
-
-/// Header of `control`.
-const CONTROL: &str = include_str!("../../templates/hand_control.h");
-
-/// The header of a program written by hand: `struct plc` and `void PREFIX_scan(struct plc *p)`, in `mixed` and
-/// `control` also with the milliseconds since the last scan, in `control` also `void PREFIX_init(struct plc *p)`.
+/// The header of a program written by hand: `struct plc` and `void PREFIX_scan(struct plc *p)`, in programs that
+/// [take the time](takes_time) also with the milliseconds since the last scan, in `control` also
+/// `void PREFIX_init(struct plc *p)`.
 pub fn header(ladder: &Ladder, prefix: &str) -> String {
     let mut out = String::from("#include <stdbool.h>\n#include <stdint.h>\n#include <string.h>\n");
-    let mut devices = format!("bool X[{TERMINALS}], Y[{TERMINALS}], M[{RELAYS}];");
-    if ladder.kind == Kind::Mixed {
-        out.push_str(MIXED);
-        let edges = ladder.rungs.iter().filter(|r| has_edge(&r.action)).count();
-        // Writing to a String does not fail.
-        let _ = write!(devices, " {MIXED_DEVICES} bool edge[{}];", edges.max(1));
-    }
-    if ladder.kind == Kind::Process {
-        out.push_str(PROCESS);
-        let _ = write!(devices, " int16_t D[{}];", process::REGISTERS);
-    }
-    if ladder.kind == Kind::Control {
-        out.push_str(CONTROL);
-        let (words, loops) = (control::REGISTERS, control::LOOPS);
-        let _ = write!(devices, " int16_t D[{words}]; union loop loop[{loops}];");
+    let (headers, members) = parts(ladder);
+    out.extend(headers.iter().copied());
+    // Writing to a String does not fail.
+    if has_init(ladder) {
         let _ = writeln!(out, "struct plc;\nvoid {prefix}_init(struct plc *p);");
     }
+    let devices = format!("bool X[{TERMINALS}], Y[{TERMINALS}], M[{RELAYS}];{members}");
     let _ = writeln!(out, "struct plc {{ {devices} }};");
     let _ = writeln!(out, "void {prefix}_scan(struct plc *p{});", time(ladder).0);
     out
@@ -53,10 +73,14 @@ pub fn header(ladder: &Ladder, prefix: &str) -> String {
 pub fn source(ladder: &Ladder, prefix: &str) -> String {
     let (parameter, argument) = time(ladder);
     let mut out = String::new();
+    if ladder.kind == Kind::Sequence {
+        sequence::hand(&ladder.sequences, prefix, &mut out);
+        return out;
+    }
     let mut edges = 0;
     let is_settings = |rung: &&Rung| matches!(rung.action, Action::Control(c) if c.is_settings());
     let (settings, rungs): (Vec<&Rung>, Vec<&Rung>) = ladder.rungs.iter().partition(is_settings);
-    if ladder.kind == Kind::Control {
+    if has_init(ladder) {
         let _ = writeln!(
             out,
             "void {prefix}_init(struct plc *p) {{\n  memset(p, 0, sizeof *p);"
@@ -88,7 +112,12 @@ pub fn source(ladder: &Ladder, prefix: &str) -> String {
 
 /// Returns true if a scan takes the time: there are timers.
 pub fn takes_time(ladder: &Ladder) -> bool {
-    matches!(ladder.kind, Kind::Mixed | Kind::Control)
+    matches!(ladder.kind, Kind::Mixed | Kind::Control | Kind::Sequence)
+}
+
+/// Returns true if there is a function that makes a controller ready; without, its memory is cleared.
+pub fn has_init(ladder: &Ladder) -> bool {
+    ladder.kind == Kind::Control
 }
 
 /// Parameter and argument for the time since the last scan.
@@ -111,7 +140,8 @@ fn has_edge(action: &Action) -> bool {
     matches!(action, Action::MoveOnce(..) | Action::IncrementOnce(_))
 }
 
-fn contact(contact: &Contact) -> String {
+/// A contact as an expression.
+pub fn contact(contact: &Contact) -> String {
     let not = if contact.negated { "!" } else { "" };
     format!("{not}p->{}", place(contact.device))
 }
@@ -134,6 +164,16 @@ fn statement(rung: &Rung, edge: u32) -> String {
         }
     };
     match rung.action {
+        Action::Driven(ref driven, coil) => {
+            let (what, after) = (&driven.hand, &driven.after);
+            match (driven.form, coil) {
+                (Form::Contacts, Some(coil)) => {
+                    format!("p->{} = {on} && {what};", place(coil))
+                }
+                (Form::Always, _) => format!("{{ {what} }}"),
+                _ => format!("if ({on}) {{ {what} }} {after}"),
+            }
+        }
         Action::Coil(device) => format!("p->{} = {on};", place(device)),
         Action::Timer(n, preset) => {
             format!("timer_run(&p->T[{n}], {on}, {}, dt);", preset * 100)

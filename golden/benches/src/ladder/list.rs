@@ -1,11 +1,12 @@
 //! A program as an instruction list.
 
-use super::{Action, Chain, Contact, Device, Ladder, Operation};
+use super::{Action, Chain, Contact, Device, Ladder, Operation, sequence};
 use std::fmt::Write;
 
 /// The program's instructions, one a line.
 pub fn list(ladder: &Ladder) -> String {
     let mut out = String::new();
+    sequence::list(&ladder.sequences, &mut out);
     for rung in &ladder.rungs {
         chain(&mut out, &rung.chain);
         if let Some((block, parallel)) = &rung.block {
@@ -34,7 +35,8 @@ fn chain(out: &mut String, chain: &Chain) {
     }
 }
 
-fn contact(out: &mut String, mnemonic: &str, contact: &Contact) {
+/// LD, AND or OR of a contact.
+pub fn contact(out: &mut String, mnemonic: &str, contact: &Contact) {
     // ANDI is written ANI.
     let mnemonic = match (mnemonic, contact.negated) {
         (_, false) => mnemonic,
@@ -71,6 +73,11 @@ fn action(out: &mut String, action: &Action) {
         Action::Process(process) => {
             process.list(out);
             Ok(())
+        }
+        Action::Driven(ref driven, coil) => {
+            out.push_str(&driven.list);
+            let mut coils = coil.iter();
+            coils.try_for_each(|coil| writeln!(out, "OUT {}", name(*coil)))
         }
         Action::Control(control) => {
             control.list(out);

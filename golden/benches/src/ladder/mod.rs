@@ -7,18 +7,33 @@
 //! | `mixed` | `contacts` with timers, counters, moves, arithmetic, SET and RST |
 //! | `process` | `contacts` with moves of blocks, shifts, queues, conversions and floats |
 //! | `control` | `contacts` with PID loops and limits, which emitted C calls the runtime for |
+//! | `sequence` | step ladders: rings of states with coils, timers and interlocks |
+//! | `index` | `contacts` with tables of words and long words behind index registers |
+//! | `recipe` | `contacts` with blocks that are copied, filled, cleared and shifted, half of them behind index registers |
+//! | `display` | `contacts` with digits for lamps and from thumbwheels, selections of lamps, words as bits |
+//! | `compare` | `contacts` with comparison contacts, CMP, ZCP, limits with hysteresis |
+//! | `float` | `contacts` with scaled analogue values, filters, arithmetic of floats, LIMIT |
 //!
 //! [`list`](Ladder::list) is the program as an instruction list, [`hand::source`] the C that an engineer would write
 //! for it.
 
+mod compare;
 mod control;
+mod display;
+mod driven;
+mod float;
 mod generate;
 pub mod hand;
+mod index;
 mod list;
 mod process;
+mod recipe;
+mod sequence;
 
 pub use control::{Called, Control};
+pub use driven::Driven;
 pub use process::Process;
+pub use sequence::Sequence;
 
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
@@ -45,16 +60,34 @@ pub enum Kind {
     Process,
     /// PID loops and limits as well.
     Control,
+    /// Step ladders.
+    Sequence,
+    /// Tables behind index registers as well.
+    Index,
+    /// Blocks of words as well.
+    Recipe,
+    /// Digits and lamps as well.
+    Display,
+    /// Comparisons as well.
+    Compare,
+    /// Floats and limits as well.
+    Float,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Kind; 5] = [
+    pub const ALL: [Kind; 11] = [
         Kind::Contacts,
         Kind::Stations,
         Kind::Mixed,
         Kind::Process,
         Kind::Control,
+        Kind::Sequence,
+        Kind::Index,
+        Kind::Recipe,
+        Kind::Display,
+        Kind::Compare,
+        Kind::Float,
     ];
 
     /// As written in tables and names of programs.
@@ -65,14 +98,12 @@ impl Kind {
             Kind::Mixed => "mixed",
             Kind::Process => "process",
             Kind::Control => "control",
-        }
-    }
-
-    /// Returns true if emitted C calls the runtime.
-    pub fn calls(self) -> bool {
-        match self {
-            Kind::Contacts | Kind::Stations | Kind::Mixed | Kind::Process => false,
-            Kind::Control => true,
+            Kind::Sequence => "sequence",
+            Kind::Index => "index",
+            Kind::Recipe => "recipe",
+            Kind::Display => "display",
+            Kind::Compare => "compare",
+            Kind::Float => "float",
         }
     }
 }
@@ -105,7 +136,7 @@ impl Chain {
 }
 
 /// Instruction driven by a rung's contacts. Numbers are those of devices: T, C, D, M.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Action {
     /// OUT Y or M.
     Coil(Device),
@@ -131,6 +162,8 @@ pub enum Action {
     Process(Process),
     /// Additional instructions of `control`.
     Control(Control),
+    /// Instructions of other kinds; the coil of those that are contacts.
+    Driven(Driven, Option<Device>),
 }
 
 /// Operation of [`Action::Arithmetic`].
@@ -164,12 +197,15 @@ pub struct Ladder {
     pub kind: Kind,
     /// Its rungs.
     pub rungs: Vec<Rung>,
+    /// Its step ladders, before the rungs.
+    pub sequences: Vec<Sequence>,
     /// Program steps, as these programs count them: one for each contact, coil and END, 3 to 13 for other instructions.
     pub steps: u32,
 }
 
 impl Ladder {
-    /// A program of about this many steps. There is room for 766 stations; a program of them does not get longer.
+    /// A program of about this many steps. There is room for 766 stations and for 4000 states; programs of them do not
+    /// get longer.
     pub fn new(kind: Kind, steps: u32) -> Self {
         Self::with_seed(kind, steps, 1)
     }
@@ -195,21 +231,30 @@ impl Ladder {
         let bytes = |class| match class {
             DeviceClass::T => 8,
             DeviceClass::C => 4,
+            // Active, before, and about to be left.
+            DeviceClass::S => 3,
             DeviceClass::D => 2,
             _ => 1,
         };
         self.used().iter().map(|(class, _)| bytes(*class)).sum()
     }
 
-    /// All devices but inputs and those of the PLC itself, in order: what is compared between implementations.
+    /// The devices that are compared between implementations, in order: all but inputs and those of the PLC itself, and
+    /// of step ladders only what a machine sees, no states and no timers.
     pub fn devices(&self) -> Vec<Device> {
+        let inner: &[DeviceClass] = match self.kind {
+            Kind::Sequence => &[DeviceClass::S, DeviceClass::T],
+            _ => &[],
+        };
         let mut devices: BTreeSet<Device> = self.used();
         devices.retain(|device| device.0 != DeviceClass::X && !control::is_special(*device));
+        devices.retain(|device| !inner.contains(&device.0));
         devices.into_iter().collect()
     }
 
     fn used(&self) -> BTreeSet<Device> {
-        let mut devices = BTreeSet::new();
+        let mut devices: BTreeSet<Device> =
+            self.sequences.iter().flat_map(Sequence::devices).collect();
         for rung in &self.rungs {
             let blocks = rung.block.iter().map(|(chain, _)| chain);
             let chains = std::iter::once(&rung.chain).chain(blocks);
@@ -225,6 +270,9 @@ impl Action {
     fn devices(&self) -> Vec<Device> {
         use DeviceClass::{C, D, M, T};
         match *self {
+            Action::Driven(ref driven, coil) => {
+                driven.devices.iter().copied().chain(coil).collect()
+            }
             Action::Coil(device) => vec![device],
             Action::Timer(n, _) => vec![(T, n)],
             Action::Counter(n, _) => vec![(C, n)],

@@ -1,0 +1,104 @@
+//! Instructions of a rung in all forms that are needed: as a list, as C written by hand, and the devices they use.
+
+use super::{Device, index};
+use super::{compare, display, float, recipe};
+use crate::ladder::Kind;
+use crate::random::Random;
+use rungc_syntax::DeviceClass::D;
+
+/// Words that are calculated with, in all kinds that have instructions of this form.
+pub const WORDS: u32 = 200;
+
+/// Where instructions stand in a rung.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Form {
+    /// Behind contacts, executed while these conduct.
+    Driven,
+    /// Executed in each scan.
+    Always,
+    /// More contacts in front of a coil: the C is an expression.
+    Contacts,
+}
+
+/// Instructions that belong together.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Driven {
+    /// Where they stand.
+    pub form: Form,
+    /// Steps, as these programs count them.
+    pub steps: u32,
+    /// The instructions, one a line.
+    pub list: String,
+    /// Statements of the hand-written C, or an expression.
+    pub hand: String,
+    /// A statement that is executed in each scan, after them.
+    pub after: String,
+    /// The devices that they read and write, without index registers.
+    pub devices: Vec<Device>,
+}
+
+impl Driven {
+    /// Instructions behind contacts; `list` has them with `;` between.
+    pub fn new(steps: u32, list: String, hand: String, devices: Vec<Device>) -> Self {
+        Driven {
+            form: Form::Driven,
+            steps,
+            list: list.replace(';', "\n") + "\n",
+            hand,
+            after: String::new(),
+            devices,
+        }
+    }
+
+    /// The same in another form.
+    pub fn with(self, form: Form) -> Self {
+        Driven { form, ..self }
+    }
+
+    /// With a statement that contacts do not govern.
+    pub fn then(self, after: String) -> Self {
+        Driven { after, ..self }
+    }
+
+    /// MOV of a constant, which gives the others something to work on.
+    pub fn constant(random: &mut Random) -> Self {
+        let [value, a] = [10_000, WORDS].map(|end| random.below(end));
+        Driven::new(
+            5,
+            format!("MOV K{value} D{a}"),
+            format!("p->D[{a}] = {value};"),
+            words([a]),
+        )
+    }
+}
+
+/// Draws instructions of a kind, of those that have some of this form.
+pub fn of(kind: Kind) -> Option<fn(&mut Random) -> Driven> {
+    match kind {
+        Kind::Index => Some(index::random),
+        Kind::Recipe => Some(recipe::random),
+        Kind::Display => Some(display::random),
+        Kind::Compare => Some(compare::random),
+        Kind::Float => Some(float::random),
+        Kind::Contacts
+        | Kind::Stations
+        | Kind::Mixed
+        | Kind::Process
+        | Kind::Control
+        | Kind::Sequence => None,
+    }
+}
+
+/// Registers.
+pub fn words(numbers: impl IntoIterator<Item = u32>) -> Vec<Device> {
+    numbers.into_iter().map(|number| (D, number)).collect()
+}
+
+/// The registers of some words, and of floats or long words at `pairs`.
+pub fn words_and_pairs<const N: usize, const P: usize>(
+    singles: [u32; N],
+    pairs: [u32; P],
+) -> Vec<Device> {
+    let pairs = pairs.into_iter().flat_map(|number| [number, number + 1]);
+    words(singles.into_iter().chain(pairs))
+}
