@@ -35,7 +35,7 @@ static void scan(PROGRAM_plc *plc, rungc_board *board)
     const uint32_t begin = board->now_us(board->hal.context);
 
     PROGRAM_scan(plc, board->now_ms, board->scan_us);
-    board->scan_us = board->now_us(board->hal.context) - begin;
+    board->scan_us = rungc_board_between(begin, board->now_us(board->hal.context));
 /* CONSTANT */}
 
 /* Sets the pins of outputs, which a scan has changed, or a comparison at its count. The timer has those that send pulses. */

@@ -12,14 +12,23 @@
 #include <stdint.h>
 #include <string.h>
 
+/* Elapsed time by a clock that may begin anywhere and wraps. Time never goes back: a reading that is up to a second behind lets no time
+   pass until the clock has caught up; one further behind is that of a clock that was set, and time continues from there. */
+typedef struct plc_stopwatch {
+    uint32_t reading; /* the latest reading that let time pass */
+    uint32_t elapsed; /* time since the first reading, wrapping */
+} plc_stopwatch;
+
 /* Time and mode, set by the scan function. */
 typedef struct plc_sys {
-    uint32_t now_ms;  /* time since power-on, wrapping; constant within a scan */
-    uint32_t dt_ms;   /* from the start of the previous scan to the start of this one */
-    uint32_t scan_us; /* duration of the last scan */
-    bool first_scan;  /* first scan since RUN began */
-    bool running;     /* RUN, not STOP */
-    uint16_t scan;    /* another odd number in each scan, wrapping */
+    uint32_t now_ms;     /* time from the first scan to this one, wrapping; constant within a scan */
+    uint32_t dt_ms;      /* from the start of the previous scan to the start of this one */
+    uint32_t scan_us;    /* duration of the last scan, at most that of 32767 in D8010 */
+    plc_stopwatch clock; /* the host's clock, read at scans and ticks */
+    bool first_scan;     /* first scan since RUN began */
+    bool running;        /* RUN, not STOP */
+    uint16_t scan;       /* another odd number in each scan, wrapping; 0 before the first */
+    uint16_t minute_ms;  /* time since the first scan, from 0 again after a minute */
 } plc_sys;
 
 /* Reason for STOP, other than the RUN/STOP switch. */
@@ -71,22 +80,80 @@ enum {
 
 /* ---- Scan cycle ----------------------------------------------------------------------------------------------------- */
 
+/* A second of the host's clock, and the longest duration of a scan that D8010 shows. */
+#define PLC_SECOND_MS 1000u
+#define PLC_MOST_SCAN_US 3276700u
+
+/* A stopwatch begins at a reading. */
+static inline void plc_stopwatch_begin(volatile plc_stopwatch *watch, uint32_t reading)
+{
+    watch->reading = reading;
+    watch->elapsed = 0;
+}
+
+/* Takes a reading of a clock whose second has `second` units; returns the time that has passed since the last one. */
+static inline uint32_t plc_stopwatch_advance(volatile plc_stopwatch *watch, uint32_t reading, uint32_t second)
+{
+    const uint32_t last = watch->reading;
+    const uint32_t passed = reading - last;
+
+    if (passed <= UINT32_MAX / 2u) {
+        watch->reading = reading;
+        watch->elapsed += passed;
+        return passed;
+    }
+    if (last - reading > second) {
+        watch->reading = reading;
+    }
+    return 0;
+}
+
+/* Lets a period in milliseconds end; returns true if one has. Periods that nobody looked at are skipped. */
+static inline bool plc_stopwatch_ends(volatile plc_stopwatch *watch, uint32_t now_ms, uint32_t length_ms)
+{
+    (void)plc_stopwatch_advance(watch, now_ms, PLC_SECOND_MS);
+    const uint32_t elapsed = watch->elapsed;
+    if (elapsed < length_ms) {
+        return false;
+    }
+    watch->elapsed = elapsed % length_ms;
+    return true;
+}
+
 /* Power on: in RUN, before the first scan. */
 static inline void plc_power_on(plc_sys *sys)
 {
     (void)memset(sys, 0, sizeof *sys);
     sys->first_scan = true;
     sys->running = true;
-    sys->scan = 1;
+}
+
+/* Time has passed between two scans, to this reading of the host's clock. */
+static inline void plc_pass(plc_sys *sys, uint32_t now_ms)
+{
+    if (sys->scan == 0u) {
+        plc_stopwatch_begin(&sys->clock, now_ms);
+    }
+    (void)plc_stopwatch_advance(&sys->clock, now_ms, PLC_SECOND_MS);
+}
+
+/* The time by the host's clock, in microseconds, wrapping. */
+static inline uint32_t plc_now_us(const plc_sys *sys)
+{
+    return sys->clock.reading * 1000u;
 }
 
 /* A scan begins, in RUN or in STOP. */
 static inline void plc_begin_scan(plc_sys *sys, uint32_t now_ms, uint32_t scan_us)
 {
-    sys->dt_ms = sys->first_scan ? 0u : (now_ms - sys->now_ms);
-    sys->now_ms = now_ms;
-    sys->scan_us = scan_us;
-    sys->scan = (uint16_t)(sys->scan + 2u);
+    plc_pass(sys, now_ms);
+    const uint32_t passed = sys->clock.elapsed - sys->now_ms;
+    const uint32_t minute_ms = sys->minute_ms + passed;
+    sys->dt_ms = sys->first_scan ? 0u : passed;
+    sys->now_ms = sys->clock.elapsed;
+    sys->scan_us = (scan_us < PLC_MOST_SCAN_US) ? scan_us : PLC_MOST_SCAN_US;
+    sys->scan = (uint16_t)((sys->scan + 2u) | 1u);
+    sys->minute_ms = (uint16_t)((minute_ms < 60000u) ? minute_ms : (minute_ms % 60000u));
 }
 
 /* Clears the bytes of a struct from offset `from` up to offset `to`. */

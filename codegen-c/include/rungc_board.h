@@ -1,8 +1,8 @@
 /*
  * rungc_board.h: a board, described once. NAME_poll of a program's NAME_board.h does all wiring between it and the program.
  *
- * Types only: a program that does not call the runtime library needs nothing to be linked. Times are microseconds since the board
- * began, wrapping after 71 minutes. Inputs and outputs have plain numbers: 8 is X010.
+ * Types only: a program that does not call the runtime library needs nothing to be linked. Times are microseconds by the board's
+ * clock, which may begin anywhere and wraps after 71 minutes; characters carry times by the same clock. Inputs and outputs have plain numbers: 8 is X010.
  */
 #ifndef RUNGC_BOARD_H
 #define RUNGC_BOARD_H
@@ -119,11 +119,14 @@ typedef struct rungc_count {
 
 /* A board. What it lacks is NULL; only `now_us` has to be there. `hal.context` is handed to each function. */
 typedef struct rungc_board {
-    /* Pins and what instructions ask: `input` is called before each scan, `set_output` after it, after edges and counts, and for
-       pulses; `hold_pulses` keeps the interrupt from coming that calls NAME_on_timer, or lets it come again. It is not nested. */
+    /* Pins and what instructions ask: `input` is called before each scan, `set_output` after it, and after edges and counts. The main loop
+       calls all of them, with one exception: NAME_on_timer calls `set_output`, for pulse outputs alone. In the timer's interrupt that is while
+       the main loop sets others, so pins of one register of the microcontroller are set and reset by single writes. `hold_pulses` keeps
+       that interrupt from coming, or lets it come again; it is not nested. */
     rungc_hal hal;
 
-    /* Time: microseconds since the board began, wrapping. Their resolution is that of everything else. */
+    /* Time: microseconds by a clock that may begin anywhere, wrapping. Their resolution is that of everything else. A reading that is up to
+       a second behind an earlier one has no effect. With `wake_in` it is also called in the timer's interrupt. */
     uint32_t (*now_us)(void *context);
 
     /* Edges: an interrupt notes each in a queue, see rungc_note_edge. Gives the oldest one that was not taken yet; false if there is none. */
@@ -145,8 +148,7 @@ typedef struct rungc_board {
     uint32_t period_us;
 
     /* Private. */
-    uint32_t now_ms;      /* the program's time */
-    uint32_t millisecond; /* start of this millisecond */
+    uint32_t now_ms;      /* the board's clock in milliseconds: 1000 times it is the start of this one in microseconds */
     uint32_t next_scan;   /* start of the next scan */
     uint32_t scan_us;     /* duration of the last one */
     bool began;           /* NAME_poll was called */
@@ -159,20 +161,39 @@ static inline bool rungc_board_begins(rungc_board *board, uint32_t now_us)
 
     if (first) {
         board->began = true;
-        board->millisecond = now_us;
+        board->now_ms = now_us / 1000u;
         board->next_scan = now_us;
     }
     return first;
 }
 
-/* Advances time: whether another millisecond has passed. */
+/* A second of the board's clock. Readings in milliseconds that are RUNGC_TURN_MS apart are the same in microseconds. */
+#define RUNGC_SECOND_US 1000000u
+#define RUNGC_TURN_MS 0x20000000u
+
+/* Advances time: true if another millisecond has begun, or the clock was set. */
 static inline bool rungc_board_passes(rungc_board *board, uint32_t now_us)
 {
-    const uint32_t passed = (now_us - board->millisecond) / 1000u;
+    plc_stopwatch watch = {board->now_ms * 1000u, 0};
+    const uint32_t last_us = watch.reading;
+    const uint32_t passed = plc_stopwatch_advance(&watch, now_us, RUNGC_SECOND_US) / 1000u;
 
-    board->millisecond += passed * 1000u;
+    if (last_us - now_us > RUNGC_SECOND_US && last_us - now_us <= UINT32_MAX / 2u + 1u) {
+        /* The reading that is behind this one, so that the program sees that the clock was set, too. */
+        board->now_ms -= (board->now_ms - now_us / 1000u) % RUNGC_TURN_MS;
+        board->next_scan = now_us;
+        return true;
+    }
     board->now_ms += passed;
     return passed != 0u;
+}
+
+/* The time between two readings; 0 if the second one is behind. */
+static inline uint32_t rungc_board_between(uint32_t begin_us, uint32_t end_us)
+{
+    plc_stopwatch watch = {begin_us, 0};
+
+    return plc_stopwatch_advance(&watch, end_us, RUNGC_SECOND_US);
 }
 
 /* Returns true if a scan is due. Missed scans are skipped. */

@@ -37,12 +37,13 @@ pub fn header(module: &Module) -> String {
     let mut text = format!(
         "#ifndef {guard}\n#define {guard}\n\n#include \"PROGRAM.h\"\n#include \"rungc_board.h\"\n\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
          /* Does what is to be done by now: edges and counts, milliseconds, interrupts, a scan if its time has come, pins. Call it in the main\n   \
-         loop behind PROGRAM_init, as often as can be and at least once in half an hour: an edge is as late as this is. */\n\
+         loop alone, behind PROGRAM_init, as often as can be and at least once in half an hour: an edge is as late as this is. */\n\
          void PROGRAM_poll(PROGRAM_plc *plc, rungc_board *board);\n"
     );
     if module.sends_pulses() {
         text.push_str(
-            "\n/* Drives the pins of pulse outputs whose time has come, and arms the timer for the next ones: in the timer's interrupt. */\n\
+            "\n/* Drives the pins of pulse outputs whose time has come, and arms the timer for the next ones: in the timer's interrupt, which\n   \
+             `hold_pulses` keeps from coming. It calls `now_us`, `set_output` and `wake_in` of the board. */\n\
              void PROGRAM_on_timer(PROGRAM_plc *plc, rungc_board *board);\n",
         );
     }

@@ -14,9 +14,29 @@ pub fn forget(module: &Module) -> String {
         let _ = writeln!(out, "    plc->{} = false;", flag.name);
     }
     for (flag, _) in module.periods() {
-        let _ = writeln!(out, "    plc->{}_since = plc->sys.now_ms;", flag.name);
+        let _ = writeln!(
+            out,
+            "    plc_stopwatch_begin(&plc->{}_since, plc->sys.clock.reading);",
+            flag.name
+        );
     }
     out
+}
+
+/// The statements by which periods begin with the first scan.
+pub fn begin_periods(module: &Module) -> String {
+    let mut out = String::new();
+    for (flag, _) in module.periods() {
+        let flag = &flag.name;
+        let _ = write!(
+            out,
+            "        plc_stopwatch_begin(&plc->{flag}_since, now_ms);\n        plc->{flag} = false;\n"
+        );
+    }
+    match out.is_empty() {
+        true => out,
+        false => format!("    if (plc->sys.scan == 0u) {{\n{out}    }}\n"),
+    }
 }
 
 /// The statements that clear cells and tables at power-on.
@@ -34,34 +54,41 @@ pub(crate) fn clear_cells(module: &Module) -> String {
 pub fn prototypes(module: &Module) -> String {
     let name = &module.name;
     let when = if edges_only_note(module) {
-        "Safe in an interrupt handler: it only notes the edge."
+        "An interrupt handler may call it: it only notes the edge."
     } else {
-        "Not while a scan runs: it counts or acts at once."
+        "In the main loop, not while a scan runs: it counts or acts at once."
     };
     let mut out = format!(
         "\n/* An input terminal X (a plain number: 8 is X010) turns on or off. {when} */\n\
          void {name}_input_edge({name}_plc *plc, unsigned terminal, bool on);\n"
     );
     if module.takes_time() {
+        let when = if module.ticks_only_note() {
+            "An interrupt handler may call it: it only notes the\n   time."
+        } else {
+            "In the main loop, not while a scan runs."
+        };
         let _ = write!(
             out,
-            "\n/* Advances time: call it each millisecond, in an interrupt handler or the main loop, so that everything timed is on time. */\n\
+            "\n/* Advances time: call it each millisecond, so that everything timed is on time; `now_ms` as for {name}_scan. {when} */\n\
              void {name}_tick({name}_plc *plc, uint32_t now_ms);\n"
         );
     }
     if module.sends_pulses() {
         let _ = write!(
             out,
-            "\n/* Drives the pins of pulse outputs (rungc_hal.set_output) at `now_us`, microseconds since power-on, wrapping; returns after how many\n   \
-             of them the next one changes, UINT32_MAX if none does. Call it then, and after each scan, which may begin pulses. An interrupt may\n   \
-             call it that rungc_hal.hold_pulses can keep from coming. */\n\
+            "\n/* Drives the pins of pulse outputs (rungc_hal.set_output) at `now_us`, microseconds by a clock that may begin anywhere, wrapping;\n   \
+             returns after how many of them the next one changes, UINT32_MAX if none does. Call it then, and after each scan, which may begin\n   \
+             pulses. One interrupt handler may call it, if rungc_hal.hold_pulses keeps that interrupt from coming; then the main loop holds\n   \
+             it, too, while it calls this function, {name}_init, {name}_set_running or {name}_power_cycle, or reads a pulse output. */\n\
              uint32_t {name}_pulse_timer({name}_plc *plc, uint32_t now_us);\n"
         );
     }
     if interrupts(module).is_some() {
         let _ = write!(
             out,
-            "\n/* Runs the interrupt routines that are requested. A scan does so in front of each network; call it while waiting for the next. */\n\
+            "\n/* Runs the interrupt routines that are requested. A scan does so in front of each network; call it while waiting for the next,\n   \
+             in the main loop. */\n\
              void {name}_take_interrupts({name}_plc *plc);\n"
         );
     }
@@ -147,17 +174,21 @@ fn tick(module: &Module) -> String {
         let flag = &flag.name;
         let _ = write!(
             out,
-            "    if (now_ms - plc->{flag}_since >= {ms}u) {{\n        plc->{flag}_since += {ms}u;\n        plc->{flag} = true;\n    }}\n"
+            "    if (plc_stopwatch_ends(&plc->{flag}_since, now_ms, {ms}u)) {{\n        plc->{flag} = true;\n    }}\n"
         );
     }
+    if !module.ticks_only_note() {
+        out.push_str("    plc_pass(&plc->sys, now_ms);\n");
+    }
     for cell in clocks(module) {
-        let _ = writeln!(out, "    plc->{} = (int32_t)now_ms;", cell.name);
+        let cell = &cell.name;
+        let _ = writeln!(out, "    plc->{cell} = plc_int32(plc->sys.clock.elapsed);");
     }
     if module.sends_pulses() {
-        let _ = writeln!(out, "    {name}_count_pulses(plc, now_ms * 1000u);");
+        let _ = writeln!(out, "    {name}_count_pulses(plc, plc_now_us(&plc->sys));");
     }
     if module.has_ports() {
-        let _ = writeln!(out, "    {name}_advance_ports(plc, now_ms * 1000u);");
+        let _ = writeln!(out, "    {name}_advance_ports(plc, plc_now_us(&plc->sys));");
     }
     if !follows_time(module) {
         out.push_str("    (void)plc;\n    (void)now_ms;\n");

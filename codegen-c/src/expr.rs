@@ -220,6 +220,7 @@ impl Writer<'_, '_> {
             SysValue::Running => "plc->sys.running",
             SysValue::FirstScan => "plc->sys.first_scan",
             SysValue::NowMs => self.called("plc_int32(plc->sys.now_ms)"),
+            SysValue::MinuteMs => self.called("(int32_t)plc->sys.minute_ms"),
             SysValue::SinceScanMs => self.called("plc_int32(plc->sys.dt_ms)"),
             SysValue::Scan100us => self.called("plc_int32(plc->sys.scan_us / 100u)"),
         });

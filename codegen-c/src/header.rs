@@ -119,7 +119,7 @@ fn private_field(out: &mut String, size: &mut Size, field: Private) {
     let (line, comment, bytes, align) = match field {
         Private::Sys => {
             out.push_str("    plc_sys sys;\n");
-            return size.add(16, 4);
+            return size.add(28, 4);
         }
         Private::Edges(count) => {
             let comment = "last states of edge contacts, pulses and steps";
@@ -130,8 +130,8 @@ fn private_field(out: &mut String, size: &mut Size, field: Private) {
             (format!("{volatile}bool {};", flag.name), flag.meaning, 1, 1)
         }
         Private::PeriodStart(flag) => {
-            let line = format!("uint32_t {}_since;", flag.name);
-            (line, "when this period began", 4, 4)
+            let line = format!("volatile plc_stopwatch {}_since;", flag.name);
+            (line, "time since this period began", 8, 4)
         }
         Private::Cell(cell) => {
             let volatile = if cell.follows_time { "volatile " } else { "" };
@@ -293,7 +293,8 @@ fn prototypes(out: &mut String, name: &str) {
         out,
         "/* Before the first use: everything as at the very first power-on, in RUN. */\n\
          void {name}_init({name}_plc *plc);\n\n\
-         /* One scan. `now_ms`: time since power-on, may wrap. `scan_us`: how long the last scan took, for D8010 to D8012. */\n\
+         /* One scan. `now_ms`: milliseconds by a clock that may begin anywhere and wraps; a reading that is up to a second behind an earlier\n   \
+         one has no effect. `scan_us`: how long the last scan took, for D8010 to D8012. */\n\
          void {name}_scan({name}_plc *plc, uint32_t now_ms, uint32_t scan_us);\n\n\
          /* State of output terminal Y `terminal` (a plain number: 8 is Y010) after a scan; off in STOP. */\n\
          bool {name}_output(const {name}_plc *plc, unsigned terminal);\n\n\
@@ -344,20 +345,24 @@ pub fn embedding(module: &Module, fields: &Storage) -> String {
         );
     }
     let edges = rungc_emit::events::inputs(module);
+    let edge = match rungc_emit::events::edges_only_note(module) {
+        true => "at each edge of this pin; an interrupt handler may",
+        false => "at each edge of this pin, between scans",
+    };
     match edges.len() {
         0..=MOST_EDGES => lines.extend(edges.iter().map(|number| {
             let code = format!("{name}_input_edge(&plc, {number}, on);");
-            (code, "in the interrupt handler of this pin")
+            (code, edge)
         })),
-        _ => lines.push((
-            format!("{name}_input_edge(&plc, n, on);"),
-            "in the interrupt handlers of the pins of inputs",
-        )),
+        _ => lines.push((format!("{name}_input_edge(&plc, n, on);"), edge)),
     }
     if rungc_emit::events::follows_time(module) {
         lines.push((
             format!("{name}_tick(&plc, millis());"),
-            "in a handler that runs each millisecond",
+            match module.ticks_only_note() {
+                true => "each millisecond; an interrupt handler may",
+                false => "each millisecond, between scans",
+            },
         ));
     }
     let column = lines.iter().map(|(code, _)| code.len()).max().unwrap_or(0) + 2;
@@ -374,7 +379,7 @@ pub fn embedding(module: &Module, fields: &Storage) -> String {
     }
     let _ = write!(
         out,
-        " *\n * It needs sizeof({name}_plc) bytes of RAM and little stack; no heap, no recursion. To keep latched devices, save the\n \
+        " *\n * All functions belong to the main loop, unless their comment lets an interrupt handler call them.\n *\n * It needs sizeof({name}_plc) bytes of RAM and little stack; no heap, no recursion. To keep latched devices, save the\n \
          * struct at power-off; at power-on load it and call {name}_power_cycle instead of {name}_init.\n"
     );
     out

@@ -466,19 +466,20 @@ impl Printer<'_> {
             }
         };
         let pulses = match module.sends_pulses() {
-            true => format!("    {name}_count_pulses(plc, now_ms * 1000u);\n"),
+            true => format!("    {name}_count_pulses(plc, plc_now_us(&plc->sys));\n"),
             false => String::new(),
         };
         let ports = match module.has_ports() {
-            true => format!("    {name}_advance_ports(plc, now_ms * 1000u);\n"),
+            true => format!("    {name}_advance_ports(plc, plc_now_us(&plc->sys));\n"),
             false => String::new(),
         };
         let obey = self.obey_run_command();
         let steps = self.watchdog_begins();
+        let periods = events::begin_periods(module);
         let (begin, main, end) = (call(0, "    "), call(1, "        "), call(2, "        "));
         let _ = write!(
             out,
-            "void {name}_scan({name}_plc *plc, uint32_t now_ms, uint32_t scan_us)\n{{\n{obey}    \
+            "void {name}_scan({name}_plc *plc, uint32_t now_ms, uint32_t scan_us)\n{{\n{obey}{periods}    \
              plc_begin_scan(&plc->sys, now_ms, scan_us);\n{pulses}{ports}{steps}{begin}    if (plc->sys.running) {{\n{main}{end}    }}\n    \
              plc->sys.first_scan = false;\n{ports}}}\n\n"
         );

@@ -50,7 +50,8 @@ impl Generator<'_> {
     }
 
     /// Forgets what happened, when RUN begins.
-    pub(crate) fn forget_flags(&self) -> TokenStream {
+    pub(crate) fn forget_flags(&mut self) -> TokenStream {
+        let watch = self.periods_type();
         let flags = self.module.flags.iter().filter(|flag| !flag.retained);
         let flags = flags.map(|flag| {
             let field = flag_field(flag);
@@ -58,9 +59,25 @@ impl Generator<'_> {
         });
         let since = self.module.periods().map(|(flag, _)| {
             let field = since_field(flag);
-            quote!(self.#field = self.sys.now_ms;)
+            quote!(self.#field = #watch::at(self.sys.clock.reading);)
         });
         flags.chain(since).collect()
+    }
+
+    /// The type of the stopwatches of periods, in programs with periods.
+    fn periods_type(&mut self) -> Option<Ident> {
+        let any = self.module.periods().next().is_some();
+        any.then(|| self.rt("Milliseconds"))
+    }
+
+    /// Statement by which periods begin with the first scan.
+    pub(crate) fn begin_periods(&mut self) -> Option<TokenStream> {
+        let watch = self.periods_type()?;
+        let begin = self.module.periods().map(|(flag, _)| {
+            let (field, since) = (flag_field(flag), since_field(flag));
+            quote!(self.#since = #watch::at(now_ms); self.#field = false;)
+        });
+        Some(quote!(if self.sys.scan == 0 { #(#begin)* }))
     }
 
     /// The methods that a host calls; nothing if the program takes no notice of anything outside its scan.
@@ -98,8 +115,7 @@ impl Generator<'_> {
                 let (field, since) = (flag_field(flag), since_field(flag));
                 let ms = Literal::u32_unsuffixed(ms);
                 quote! {
-                    if now_ms.wrapping_sub(self.#since) >= #ms {
-                        self.#since = self.#since.wrapping_add(#ms);
+                    if self.#since.ends_period(now_ms, #ms) {
                         self.#field = true;
                     }
                 }
@@ -110,20 +126,22 @@ impl Generator<'_> {
             .filter(|(_, cell)| cell.follows_time)
             .map(|(i, _)| {
                 let field = self.cell(CellId(i));
-                quote!(self.#field = now_ms as i32;)
+                quote!(self.#field = self.sys.clock.elapsed as i32;)
             })
             .collect();
         let pulses = self
             .module
             .sends_pulses()
-            .then(|| quote!(self.count_pulses(hal, now_ms.wrapping_mul(1000));));
+            .then(|| quote!(self.count_pulses(hal, self.sys.now_us());));
         let ports = self.ports_advance();
+        let passes = !self.module.ticks_only_note();
+        let pass = passes.then(|| quote!(self.sys.tick(now_ms);));
         let asks = pulses.is_some() || ports.is_some();
         let says_nothing = periods.is_empty() && clocks.is_empty() && !asks;
         let (parameter, hal) = (hal_parameter(asks), self.rt("Hal"));
         (!says_nothing).then(|| {
             quote! {
-                fn tick(&mut self, #parameter: &mut dyn #hal, now_ms: u32) { #(#periods)* #(#clocks)* #pulses #ports }
+                fn tick(&mut self, #parameter: &mut dyn #hal, now_ms: u32) { #(#periods)* #pass #(#clocks)* #pulses #ports }
             }
         })
     }
@@ -131,7 +149,7 @@ impl Generator<'_> {
     /// Statement that brings serial ports up to date.
     pub(crate) fn ports_advance(&self) -> Option<TokenStream> {
         let has_ports = self.module.has_ports();
-        has_ports.then(|| quote!(self.advance_ports(hal, now_ms.wrapping_mul(1000));))
+        has_ports.then(|| quote!(self.advance_ports(hal, self.sys.now_us());))
     }
 
     /// The method that brings serial ports up to date.

@@ -506,6 +506,7 @@ fn sys_value(value: SysValue) -> Code {
         SysValue::Running => Code::atom(quote!(plc.sys.running)),
         SysValue::FirstScan => Code::atom(quote!(plc.sys.first_scan)),
         SysValue::NowMs => Code::shaped(quote!(plc.sys.now_ms as i32), Shape::Cast),
+        SysValue::MinuteMs => Code::shaped(quote!(plc.sys.minute_ms as i32), Shape::Cast),
         SysValue::SinceScanMs => Code::shaped(quote!(plc.sys.dt_ms as i32), Shape::Cast),
         SysValue::Scan100us => Code::shaped(quote!((plc.sys.scan_us / 100) as i32), Shape::Cast),
     }

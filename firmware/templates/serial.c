@@ -109,15 +109,10 @@ static void set_line(void *context, uint8_t port, const rungc_line_format *forma
 
 static bool receive(void *context, uint8_t port, uint32_t now_us, rungc_received *received)
 {
-    const uint32_t begin_us = board.millisecond - board.now_ms * 1000u; /* origin of the program's time */
     const uart *const u = uart_of(port);
 
     (void)context;
-    if (u == NULL || !listens(u->waiting) || !rungc_take_character(&u->waiting->received, now_us + begin_us, received)) {
-        return false;
-    }
-    received->at_us -= begin_us;
-    return true;
+    return u != NULL && listens(u->waiting) && rungc_take_character(&u->waiting->received, now_us, received);
 }
 
 static bool send(void *context, uint8_t port, uint8_t byte, uint32_t now_us)

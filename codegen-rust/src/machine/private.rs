@@ -63,8 +63,14 @@ impl Generator<'_> {
                 (flag_field(flag), quote!(bool), quote!(false), flag.meaning)
             }
             Private::PeriodStart(flag) => {
-                let meaning = "when this period began";
-                (since_field(flag), quote!(u32), quote!(0), meaning)
+                let watch = self.rt("Milliseconds");
+                let meaning = "Time since this period began.";
+                (
+                    since_field(flag),
+                    quote!(#watch),
+                    quote!(#watch::at(0)),
+                    meaning,
+                )
             }
             Private::Cell(cell) => {
                 let name = format_ident!("{}", cell.name);

@@ -44,10 +44,11 @@ impl Generator<'_> {
         };
         let power_cycle = self.power_cycle();
         let events = self.event_methods();
+        let periods = self.begin_periods();
         let count_pulses = self
             .module
             .sends_pulses()
-            .then(|| quote!(self.count_pulses(hal, now_ms.wrapping_mul(1000));));
+            .then(|| quote!(self.count_pulses(hal, self.sys.now_us());));
         let constant_scan = self.constant_scan();
         let ports = self.ports_advance();
         let watchdog = self.watchdog_begins(&quote!(self));
@@ -60,6 +61,7 @@ impl Generator<'_> {
             impl #program for #name {
                 fn scan(&mut self, #hal_name: &mut dyn #hal, now_ms: u32, scan_us: u32) {
                     #obey
+                    #periods
                     self.sys.begin_scan(now_ms, scan_us);
                     #count_pulses
                     #ports

@@ -21,7 +21,7 @@ pub enum Private<'m> {
         /// It is set outside the scan, perhaps in an interrupt handler.
         outside: bool,
     },
-    /// Start of the current period of this flag, in milliseconds since power-on.
+    /// Time since the start of the current period of this flag: [`rungc_rt::Milliseconds`].
     PeriodStart(&'m Flag),
     /// A cell.
     Cell(&'m Cell),

@@ -98,6 +98,7 @@ impl<'m> Machine<'m> {
             Expr::Sys(SysValue::Running) => Value::Bit(self.sys.running),
             Expr::Sys(SysValue::FirstScan) => Value::Bit(self.sys.first_scan),
             Expr::Sys(SysValue::NowMs) => Value::I32(self.sys.now_ms as i32),
+            Expr::Sys(SysValue::MinuteMs) => Value::I32(self.sys.minute_ms.into()),
             Expr::Sys(SysValue::SinceScanMs) => Value::I32(self.sys.dt_ms as i32),
             Expr::Sys(SysValue::Scan100us) => Value::I32((self.sys.scan_us / 100) as i32),
             Expr::Not(_) | Expr::And(..) | Expr::Or(..) => Value::Bit(self.on(id)),

@@ -19,8 +19,8 @@ use rungc_rt::special::{
     M_OUTPUTS_OFF, M_REMOTE_RUN, REMOTE_KEY, Relay,
 };
 use rungc_rt::{
-    Axis, Class, EdgeKind, ErrorRules, Hal, LastError, Operand, Plc, Port, Ports, Program, Pulses,
-    State, Stop, Sys,
+    Axis, Class, EdgeKind, ErrorRules, Hal, LastError, Milliseconds, Operand, Plc, Port, Ports,
+    Program, Pulses, State, Stop, Sys,
 };
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
@@ -76,7 +76,7 @@ pub struct Machine<'m> {
     pub(crate) edges: TiVec<EdgeId, bool>,
     pub(crate) flags: TiVec<FlagId, bool>,
     /// Start of the current period of each flag that has one.
-    pub(crate) periods: Vec<u32>,
+    pub(crate) periods: Vec<Milliseconds>,
     pub(crate) cells: TiVec<CellId, i32>,
     pub(crate) tables: TiVec<TableId, Vec<i32>>,
     pub(crate) sys: Sys,
@@ -122,7 +122,7 @@ impl<'m> Machine<'m> {
             temps: module.temps.iter().map(|&ty| Value::zero(ty)).collect(),
             edges: vec![false; module.edges as usize].into(),
             flags: vec![false; module.flags.len()].into(),
-            periods: vec![0; module.flags.len()],
+            periods: vec![Milliseconds::at(0); module.flags.len()],
             cells: vec![0; module.cells.len()].into(),
             tables: module
                 .tables
@@ -238,12 +238,20 @@ impl<'m> Machine<'m> {
         for (state, flag) in self.flags.iter_mut().zip(&self.module.flags) {
             *state &= flag.retained;
         }
-        self.periods.fill(self.sys.now_ms);
+        self.periods.fill(Milliseconds::at(self.sys.clock.reading));
         let of_program = 1..=usize::from(self.module.run_states);
         if let Some(states) = self.states.get_mut(of_program) {
             states.fill(State::default());
         }
         self.devices.forget_coils();
+    }
+
+    /// Periods begin with the first scan.
+    fn begin_periods(&mut self, now_ms: u32) {
+        self.periods.fill(Milliseconds::at(now_ms));
+        for (state, flag) in self.flags.iter_mut().zip(&self.module.flags) {
+            *state &= flag.period_ms.is_none();
+        }
     }
 
     /// Counts the pulses that have been sent, and sets the flags of the trains that have ended.
@@ -343,8 +351,11 @@ impl<'m> Machine<'m> {
 impl Program for Machine<'_> {
     fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32) {
         self.obey_run_command();
+        if self.sys.scan == 0 {
+            self.begin_periods(now_ms);
+        }
         self.sys.begin_scan(now_ms, scan_us);
-        let now_us = now_ms.wrapping_mul(1000);
+        let now_us = self.sys.now_us();
         self.count_pulses(hal, now_us);
         self.advance_ports(hal, now_us);
         self.restarts_left = MOST_RESTARTS;
@@ -372,19 +383,19 @@ impl Program for Machine<'_> {
 
     fn tick(&mut self, hal: &mut dyn Hal, now_ms: u32) {
         let states = self.flags.iter_mut().zip(&mut self.periods);
-        for (flag, (state, last)) in self.module.flags.iter().zip(states) {
-            if let Some(ms) = flag.period_ms
-                && now_ms.wrapping_sub(*last) >= ms
-            {
-                *last = last.wrapping_add(ms);
-                *state = true;
+        for (flag, (state, since)) in self.module.flags.iter().zip(states) {
+            if let Some(ms) = flag.period_ms {
+                *state |= since.ends_period(now_ms, ms);
             }
+        }
+        if !self.module.ticks_only_note() {
+            self.sys.tick(now_ms);
         }
         let cells = self.module.cells.iter().zip(&mut self.cells);
         for (_, value) in cells.filter(|(cell, _)| cell.follows_time) {
-            *value = now_ms as i32;
+            *value = self.sys.clock.elapsed as i32;
         }
-        let now_us = now_ms.wrapping_mul(1000);
+        let now_us = self.sys.now_us();
         self.count_pulses(hal, now_us);
         self.advance_ports(hal, now_us);
     }

@@ -5,7 +5,7 @@ use crate::errors::OperationError;
 use crate::eval::Value;
 use crate::machine::Machine;
 use rungc_ir::node::{CellId, EdgeId, FlagId, TableId, TempId};
-use rungc_rt::{Axis, LastError, Port, State, Sys};
+use rungc_rt::{Axis, LastError, Milliseconds, Port, State, Sys};
 use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
 
@@ -16,7 +16,7 @@ pub struct Saved {
     temps: TiVec<TempId, Value>,
     edges: TiVec<EdgeId, bool>,
     flags: TiVec<FlagId, bool>,
-    periods: Vec<u32>,
+    periods: Vec<Milliseconds>,
     cells: TiVec<CellId, i32>,
     tables: TiVec<TableId, Vec<i32>>,
     sys: Sys,

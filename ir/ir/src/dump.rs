@@ -410,6 +410,7 @@ impl Out<'_> {
             Expr::Sys(SysValue::Running) => "running".into(),
             Expr::Sys(SysValue::FirstScan) => "first_scan".into(),
             Expr::Sys(SysValue::NowMs) => "now_ms".into(),
+            Expr::Sys(SysValue::MinuteMs) => "minute_ms".into(),
             Expr::Sys(SysValue::SinceScanMs) => "since_scan_ms".into(),
             Expr::Sys(SysValue::Scan100us) => "scan_100us".into(),
             Expr::Not(a) => format!("!{}", self.expr(*a)),

@@ -91,6 +91,7 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
             SysValue::Running
             | SysValue::FirstScan
             | SysValue::NowMs
+            | SysValue::MinuteMs
             | SysValue::SinceScanMs
             | SysValue::Scan100us,
         )

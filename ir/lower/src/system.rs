@@ -190,17 +190,15 @@ impl Lowerer<'_> {
         self.when(shows, show);
     }
 
-    /// M8011 to M8014: the time since power-on, without its sign bit, gives the position in its period of each.
+    /// M8011 to M8014: the time of the minute gives the position in its period of each.
     fn clocks(&mut self) {
         for (relay, period) in M_CLOCK_10_MS.run::<4>().into_iter().zip(CLOCK_PERIODS) {
             if !self.keeps(relay) {
                 continue;
             }
-            let now = self.add(Expr::Sys(SysValue::NowMs));
-            let mask = self.add(Expr::I32(i32::MAX));
-            let now = self.add(Expr::Bin(BinOp::And, now, mask));
+            let minute = self.add(Expr::Sys(SysValue::MinuteMs));
             let length = self.add(Expr::I32(period));
-            let part = self.add(Expr::Bin(BinOp::Rem, now, length));
+            let part = self.add(Expr::Bin(BinOp::Rem, minute, length));
             let half = self.add(Expr::I32(period / 2));
             let on = self.add(Expr::Cmp(CmpOp::Ge, part, half));
             self.write_relay(relay, on);

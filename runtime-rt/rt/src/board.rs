@@ -1,7 +1,7 @@
 //! A board, described once by four small traits, and the [`Driver`] that does all wiring between it and a program.
 //!
-//! Times are microseconds since the board began, wrapping after 71 minutes. Inputs and outputs have plain numbers: 8 is
-//! X010.
+//! Times are microseconds by the board's clock, which may begin anywhere and wraps after 71 minutes
+//! ([`Stopwatch`](crate::Stopwatch)). Inputs and outputs have plain numbers: 8 is X010.
 //!
 //! ```
 //! use rungc_rt::board::{CounterInput, Driver, EdgeInterrupt, PulseOutput, Setup, Timebase};
@@ -91,10 +91,12 @@ pub use crate::line_queues::{BothQueues, TurnQueue};
 use crate::plc::Class;
 use crate::program::Program;
 pub use crate::pulse_side::{SharedAxes, send_pulses};
+use crate::stopwatch::{Divider, Microseconds};
 
 /// Time source of a board.
 pub trait Timebase {
-    /// Microseconds since the board began, wrapping. Their resolution is that of pulses and scans.
+    /// Microseconds by a clock that may begin anywhere, wrapping. Their resolution is that of pulses and scans. Characters of serial
+    /// ports carry times by the same clock.
     fn now_us(&mut self) -> u32;
 }
 
@@ -201,10 +203,8 @@ pub struct Driver<P, B> {
     /// The board.
     pub board: B,
     setup: Setup,
-    /// Start of the current millisecond by the board's time; `None` before the first poll.
-    millisecond: Option<u32>,
-    /// Milliseconds since the first poll.
-    now_ms: u32,
+    /// The board's clock in milliseconds; `None` before the first poll.
+    clock: Option<Divider>,
     /// Start of the next scan.
     next_scan: u32,
     /// Duration of the last scan, in microseconds.
@@ -220,17 +220,16 @@ impl<P: Program, B: Board> Driver<P, B> {
             program,
             board,
             setup,
-            millisecond: None,
-            now_ms: 0,
+            clock: None,
             next_scan: 0,
             scan_us: 0,
             shares_pulses: false,
         }
     }
 
-    /// Milliseconds since the first [`Driver::poll`], wrapping: the program's time.
+    /// Milliseconds by the board's clock at the last [`Driver::poll`], wrapping; 0 before the first.
     pub fn now_ms(&self) -> u32 {
-        self.now_ms
+        self.clock.unwrap_or_default().ms
     }
 
     /// Does what is to be done by now. Call it in the main loop, as often as can be and at least once in half an hour:
@@ -238,8 +237,7 @@ impl<P: Program, B: Board> Driver<P, B> {
     /// it requests, then counts and milliseconds, then a scan if its time has come, then outputs and pulses.
     pub fn poll(&mut self) {
         let now_us = self.board.now_us();
-        if self.millisecond.is_none() {
-            self.millisecond = Some(now_us);
+        if self.clock.is_none() {
             self.next_scan = now_us;
             self.refresh_inputs(true);
             let shares = &mut self.shares_pulses;
@@ -250,7 +248,8 @@ impl<P: Program, B: Board> Driver<P, B> {
         let counts = self.take_counts();
         let passed = self.pass(now_us);
         if passed {
-            self.program.tick(&mut self.board, self.now_ms);
+            let now_ms = self.now_ms();
+            self.program.tick(&mut self.board, now_ms);
         }
         self.program.take_interrupts(&mut self.board);
         let scans = has_come(self.next_scan, now_us);
@@ -281,13 +280,14 @@ impl<P: Program, B: Board> Driver<P, B> {
         self.board.wake_in(wait);
     }
 
-    /// Advances time; returns whether another millisecond has passed.
+    /// Advances time; returns whether another millisecond has begun.
     fn pass(&mut self, now_us: u32) -> bool {
-        let began = self.millisecond.unwrap_or(now_us);
-        let passed = now_us.wrapping_sub(began) / 1000;
-        self.millisecond = Some(began.wrapping_add(passed * 1000));
-        self.now_ms = self.now_ms.wrapping_add(passed);
-        passed > 0
+        let clock = self.clock.get_or_insert(Divider::at(now_us));
+        let last_us = clock.ms.wrapping_mul(1000);
+        if Microseconds::at(last_us).is_set(now_us) {
+            self.next_scan = now_us;
+        }
+        clock.advance(now_us)
     }
 
     /// Takes the edges that interrupts noted; whether there were any.
@@ -364,10 +364,10 @@ impl<P: Program, B: Board> Driver<P, B> {
 
     /// A scan.
     fn scan(&mut self) {
-        let begin = self.board.now_us();
-        self.program
-            .scan(&mut self.board, self.now_ms, self.scan_us);
-        self.scan_us = self.board.now_us().wrapping_sub(begin);
+        let begin = Microseconds::at(self.board.now_us());
+        let now_ms = self.now_ms();
+        self.program.scan(&mut self.board, now_ms, self.scan_us);
+        self.scan_us = begin.passed(self.board.now_us());
     }
 
     /// If the program asks for scans of constant length, the next one begins that long after the beginning of the last,

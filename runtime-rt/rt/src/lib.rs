@@ -1,6 +1,6 @@
 //! Runtime of PLC instructions.
 //!
-//! `no_std`, no allocation, no panics. The interpreter, emitted Rust and (through the C ABI, feature `capi`) emitted C
+//! `no_std`, no allocation; only a bug could panic. The interpreter, emitted Rust and (through the C ABI, feature `capi`) emitted C
 //! all call the same functions here, so an instruction has one meaning. An instruction sees the PLC through [`Plc`]
 //! (its devices) and [`Hal`] (its hardware), and its operands through [`Cx`].
 //!
@@ -52,6 +52,7 @@ pub mod retain;
 mod runs;
 pub mod special;
 mod specials;
+mod stopwatch;
 mod timing;
 mod virtual_hal;
 mod virtual_line;
@@ -80,6 +81,7 @@ pub use registry::{Needs, RtFn};
 pub use runs::{FIRST_COUNTER32, FIRST_SPECIAL, Runs};
 pub use special::{Register, Relay};
 pub use specials::Specials;
+pub use stopwatch::{Divider, Microseconds, Milliseconds, Stopwatch};
 pub use timing::{Counter16, Counter32, Timer, TimerKind};
 pub use virtual_hal::VirtualHal;
 pub use virtual_line::VirtualLine;

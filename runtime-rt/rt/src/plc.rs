@@ -4,6 +4,7 @@ use crate::axis::Axis;
 use crate::comm::codec::Codec;
 use crate::comm::modbus::{self, Profile};
 use crate::comm::{PortMut, PortWiring, Ports};
+use crate::stopwatch::Milliseconds;
 use crate::wiring::Pulses;
 
 /// Device class. The numbers are part of the C ABI.
@@ -50,43 +51,71 @@ impl State {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Sys {
-    /// Time since power-on in milliseconds, wrapping; constant within a scan.
+    /// Time from the first scan to this one in milliseconds, wrapping; constant within a scan.
     pub now_ms: u32,
     /// Milliseconds from the start of the previous scan to the start of this one; 0 in the first.
     pub dt_ms: u32,
-    /// Duration of the last scan in microseconds (D8010 shows it in 0.1 ms).
+    /// Duration of the last scan in microseconds, at most [`Sys::MOST_SCAN_US`] (D8010 shows it in 0.1 ms).
     pub scan_us: u32,
+    /// The host's clock, read at scans and ticks.
+    pub clock: Milliseconds,
     /// True in the first scan after RUN began (M8002).
     pub first_scan: bool,
     /// True if the PLC is in RUN.
     pub running: bool,
-    /// Another odd number in each scan, wrapping, and so never 0: what is done once in each scan remembers it.
+    /// Another odd number in each scan, wrapping; 0 before the first one after power-on. What is done once in each scan remembers it.
     pub scan: u16,
+    /// Milliseconds since the first scan, from 0 again after a minute (M8011 to M8014).
+    pub minute_ms: u16,
 }
 
 impl Sys {
+    /// The longest duration of a scan that D8010 shows, in microseconds.
+    pub const MOST_SCAN_US: u32 = 100 * i16::MAX as u32;
+
+    /// Milliseconds of a minute.
+    const MINUTE_MS: u32 = 60_000;
+
     /// At power-on: in RUN, before the first scan.
     pub const fn power_on() -> Self {
         Sys {
             now_ms: 0,
             dt_ms: 0,
             scan_us: 0,
+            clock: Milliseconds::at(0),
             first_scan: true,
             running: true,
-            scan: 1,
+            scan: 0,
+            minute_ms: 0,
         }
     }
 
-    /// A scan begins, in RUN or in STOP.
+    /// A scan begins, in RUN or in STOP, at this reading of the host's clock.
     pub fn begin_scan(&mut self, now_ms: u32, scan_us: u32) {
-        self.dt_ms = if self.first_scan {
-            0
-        } else {
-            now_ms.wrapping_sub(self.now_ms)
-        };
-        self.now_ms = now_ms;
-        self.scan_us = scan_us;
-        self.scan = self.scan.wrapping_add(2);
+        self.tick(now_ms);
+        let passed = self.clock.elapsed.wrapping_sub(self.now_ms);
+        self.dt_ms = if self.first_scan { 0 } else { passed };
+        self.now_ms = self.clock.elapsed;
+        self.scan_us = scan_us.min(Self::MOST_SCAN_US);
+        self.scan = self.scan.wrapping_add(2) | 1;
+        let minute_ms = u32::from(self.minute_ms).saturating_add(passed);
+        self.minute_ms = match minute_ms < Self::MINUTE_MS {
+            true => minute_ms,
+            false => minute_ms % Self::MINUTE_MS,
+        } as u16;
+    }
+
+    /// Time has passed between two scans, to this reading of the host's clock.
+    pub fn tick(&mut self, now_ms: u32) {
+        if self.scan == 0 {
+            self.clock = Milliseconds::at(now_ms);
+        }
+        self.clock.advance(now_ms);
+    }
+
+    /// The time by the host's clock, in microseconds, wrapping: for pulses, and for ports, whose characters carry it.
+    pub fn now_us(&self) -> u32 {
+        self.clock.reading.wrapping_mul(1000)
     }
 
     /// The scan is over.

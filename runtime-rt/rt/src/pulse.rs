@@ -5,6 +5,8 @@
 //! 2as). So ramps need no clock, the way down begins where as many pulses are left as it takes, and a train ends with
 //! exactly the pulses that it was given.
 
+use crate::stopwatch::Microseconds;
+
 /// A whole pulse in the unit of its progress, millihertz times microseconds.
 const FULL: u64 = 1_000_000_000;
 
@@ -63,7 +65,7 @@ pub struct Generator {
     speed: u32,
     total: u32,
     sent: u32,
-    /// Time of the last call, in microseconds, wrapping.
+    /// Reading of the clock at the last call.
     now_us: u32,
     /// On-time of a pulse.
     on: u32,
@@ -214,15 +216,16 @@ impl Generator {
         }
     }
 
-    /// Counts the pulses that have ended since the last call. Call it at least every half an hour; time that goes back
-    /// stands still.
+    /// Counts the pulses that have ended since the last call. Call it at least every half an hour; what time passes by these readings,
+    /// [`Microseconds`] says.
     pub fn advance(&mut self, now_us: u32) -> u32 {
-        let passed = now_us.wrapping_sub(self.now_us);
-        if passed > u32::MAX / 2 {
+        if !self.busy {
+            self.now_us = now_us;
             return 0;
         }
-        let mut left = u64::from(passed);
-        self.now_us = now_us;
+        let mut watch = Microseconds::at(self.now_us);
+        let mut left = u64::from(watch.advance(now_us));
+        self.now_us = watch.reading;
         let mut count: u32 = 0;
         while self.busy && self.rate > 0 {
             let gain = left.saturating_mul(self.rate.into());
@@ -260,10 +263,7 @@ impl Generator {
         if core::mem::take(&mut self.fresh) {
             self.now_us = now_us;
         }
-        let passed = now_us.wrapping_sub(self.now_us);
-        if passed > u32::MAX / 2 {
-            return 0;
-        }
+        let passed = Microseconds::at(self.now_us).passed(now_us);
         let Some(wait) = self.next_edge().filter(|&wait| wait <= passed) else {
             return self.advance(now_us);
         };
@@ -276,8 +276,7 @@ impl Generator {
 
     /// Microseconds from `now_us` to when the output changes next; `None` if it does not.
     pub fn wait(&self, now_us: u32) -> Option<u32> {
-        let passed = now_us.wrapping_sub(self.now_us);
-        let passed = if passed > u32::MAX / 2 { 0 } else { passed };
+        let passed = Microseconds::at(self.now_us).passed(now_us);
         Some(self.next_edge()?.saturating_sub(passed))
     }
 

@@ -3,6 +3,7 @@
 use crate::hal::{Clock, DAY_MS, Hal, SerialPort};
 use crate::modules::{BOARD, Kind, Module, Quantity, Signal};
 use crate::program::Program;
+use crate::stopwatch::Milliseconds;
 use crate::virtual_line::VirtualLine;
 
 /// Words of buffer memory that all modules together may hold.
@@ -45,7 +46,7 @@ pub struct VirtualHal {
     /// The clock was `base` when it was set, `since_base_ms` ago.
     base: Clock,
     since_base_ms: u64,
-    now_ms: u32,
+    watch: Milliseconds,
     lines: [VirtualLine; LINES],
     power_fails: bool,
 }
@@ -79,7 +80,7 @@ impl VirtualHal {
                 weekday: 6,
             },
             since_base_ms: 0,
-            now_ms: 0,
+            watch: Milliseconds::at(0),
             lines: [const { VirtualLine::new() }; LINES],
             power_fails: false,
         }
@@ -97,9 +98,8 @@ impl VirtualHal {
 
     /// Virtual time is now `now_ms` milliseconds after power-on (wrapping); call it before each scan.
     pub fn advance_to(&mut self, now_ms: u32) {
-        let passed = now_ms.wrapping_sub(self.now_ms);
+        let passed = self.watch.advance(now_ms);
         self.since_base_ms = self.since_base_ms.saturating_add(passed.into());
-        self.now_ms = now_ms;
         for (_, module) in self.modules.iter_mut().flatten() {
             module.pass(passed.saturating_mul(1000));
         }
@@ -120,7 +120,7 @@ impl VirtualHal {
     /// Virtual time restarts at 0, as after power off and on; the clock continues where it is, and modules keep what
     /// they keep.
     pub fn restart(&mut self) {
-        self.now_ms = 0;
+        self.watch = Milliseconds::at(0);
         self.power_fails = false;
         self.lines = [const { VirtualLine::new() }; LINES];
         for (_, module) in self.modules.iter_mut().flatten() {

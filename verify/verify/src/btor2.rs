@@ -179,6 +179,7 @@ fn of_bit(key: Key, bit: usize) -> String {
         Key::First => "first_scan".to_string(),
         Key::Running => "run".to_string(),
         Key::Now => format!("now[{bit}]"),
+        Key::Minute => format!("minute[{bit}]"),
         Key::Monitor(n) => format!("property{n}[{bit}]"),
     }
 }

@@ -62,7 +62,10 @@ impl<'s> Lanes<'s> {
             let Some(on) = latch.init else {
                 let any = random.bits() & random.bits() & half;
                 // A replay begins at 0, too.
-                let from_0 = matches!(latch.key, Key::Now | Key::Timer(_, TimerPart::Part));
+                let from_0 = matches!(
+                    latch.key,
+                    Key::Now | Key::Minute | Key::Timer(_, TimerPart::Part)
+                );
                 return if from_0 { 0 } else { any };
             };
             u64::from(on).wrapping_neg()

@@ -3,6 +3,7 @@
 mod architecture;
 mod behaviour;
 mod board;
+mod clocks;
 mod conformance;
 mod conformance_qemu;
 mod corpus;

@@ -26,11 +26,13 @@ pub enum SysValue {
     Running,
     /// `Bit`: first scan since RUN began (M8002).
     FirstScan,
-    /// `I32`: milliseconds since power-on, wrapping, constant in a scan.
+    /// `I32`: milliseconds since the first scan, wrapping, constant in a scan.
     NowMs,
+    /// `I32`: milliseconds since the first scan, from 0 again after a minute, constant in a scan.
+    MinuteMs,
     /// `I32`: milliseconds from the start of the previous scan to the start of this one, wrapping; 0 in the first.
     SinceScanMs,
-    /// `I32`: duration of the last scan in units of 0.1 ms (D8010).
+    /// `I32`: duration of the last scan in units of 0.1 ms, at most 32767 (D8010).
     Scan100us,
 }
 
@@ -158,7 +160,9 @@ pub fn type_of(exprs: &TiSlice<ExprId, Expr>, temps: &TiSlice<TempId, Ty>, id: E
         Expr::Temp(temp) => temps[temp],
         Expr::Read(access) => access.ty(),
         Expr::Sys(SysValue::Running | SysValue::FirstScan) => Ty::Bit,
-        Expr::Sys(SysValue::NowMs | SysValue::SinceScanMs | SysValue::Scan100us) => Ty::I32,
+        Expr::Sys(
+            SysValue::NowMs | SysValue::MinuteMs | SysValue::SinceScanMs | SysValue::Scan100us,
+        ) => Ty::I32,
         Expr::Bin(_, a, _) | Expr::Complement(a) | Expr::Neg(a) => type_of(exprs, temps, a),
     }
 }

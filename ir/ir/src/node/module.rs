@@ -321,6 +321,13 @@ impl Module {
         flags.filter_map(|flag| flag.period_ms.map(|ms| (flag, ms)))
     }
 
+    /// Returns true if the end of a millisecond only sets flags, so that it may be reported while a scan runs.
+    pub fn ticks_only_note(&self) -> bool {
+        !self.sends_pulses()
+            && !self.has_ports()
+            && !self.cells.iter().any(|cell| cell.follows_time)
+    }
+
     /// Returns true if a host has to report the time between scans.
     pub fn takes_time(&self) -> bool {
         let taken = |f: &Function| f.kind == FunctionKind::TakeInterrupts;

@@ -31,11 +31,6 @@ fn has_card(cx: &mut Cx) -> bool {
     port.is_some_and(|port| port.status.protocol == Protocol::Can)
 }
 
-/// Time in microseconds, as ports count it.
-fn now_us(cx: &Cx) -> u32 {
-    cx.plc.sys().now_ms.wrapping_mul(1000)
-}
-
 /// CANTX S1 S2 D n (FNC 90): sends n bytes from D on, the high byte of each word first.
 pub fn cantx(cx: &mut Cx) -> Done {
     let id = identifier(cx)?;
@@ -52,7 +47,7 @@ pub fn cantx(cx: &mut Cx) -> Done {
     if !has_card(cx) {
         return Ok(());
     }
-    let now_us = now_us(cx);
+    let now_us = cx.plc.sys().now_us();
     let sent = can::send(cx.hal(), &frame, now_us);
     M_SEND_FAILED.set(cx.plc, !sent);
     M_SENDS.set(cx.plc, sent);
@@ -63,7 +58,7 @@ pub fn cantx(cx: &mut Cx) -> Done {
 pub fn canrx(cx: &mut Cx) -> Done {
     let id = identifier(cx)?;
     let most = cx.count(3, 0..=8)?;
-    let (owner, now_us) = (cx.site.step + 1, now_us(cx));
+    let (owner, now_us) = (cx.site.step + 1, cx.plc.sys().now_us());
     if !has_card(cx) {
         return Ok(());
     }

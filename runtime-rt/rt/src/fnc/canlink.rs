@@ -54,14 +54,14 @@ pub fn cannet(cx: &mut Cx) -> Done {
         D_STATION.set(cx.plc, own.into());
     }
     if beats {
-        beat(cx, own, own == master, now_ms);
+        beat(cx, own, own == master);
     }
     show_states(cx, master, now_ms);
     Ok(())
 }
 
 /// Sends a heartbeat; one that the bus does not take is lost, and the next one follows.
-fn beat(cx: &mut Cx, own: u8, is_master: bool, now_ms: u32) {
+fn beat(cx: &mut Cx, own: u8, is_master: bool) {
     let head = Head {
         kind: Kind::Heartbeat,
         sender: own,
@@ -70,7 +70,8 @@ fn beat(cx: &mut Cx, own: u8, is_master: bool, now_ms: u32) {
     };
     let runs = !is_master || M_NETWORK.is_on(cx.plc);
     let frame = frame(head, &[u8::from(runs)]);
-    let sent = can::send(cx.hal(), &frame, now_ms.wrapping_mul(1000));
+    let now_us = cx.plc.sys().now_us();
+    let sent = can::send(cx.hal(), &frame, now_us);
     M_SEND_FAILED.set(cx.plc, !sent);
 }
 
@@ -166,7 +167,7 @@ fn send(cx: &mut Cx, head: Head, first: i32, count: i32, scan: u16) -> Result<bo
         ..head
     };
     let data = data.get(..2 * words as usize).unwrap_or_default();
-    let now_us = cx.plc.sys().now_ms.wrapping_mul(1000);
+    let now_us = cx.plc.sys().now_us();
     let sent = can::send(cx.hal(), &frame(head, data), now_us);
     M_SEND_FAILED.set(cx.plc, !sent);
     if let (false, Some(mut network)) = (sent, Network::of(cx.plc)) {

@@ -105,6 +105,7 @@ impl Encoder<'_> {
             SysValue::Running => self.load(Key::Running),
             SysValue::FirstScan => self.load(Key::First),
             SysValue::NowMs => self.load(Key::Now),
+            SysValue::MinuteMs => unsigned(&self.load(Key::Minute), 32),
             SysValue::SinceScanMs => unsigned(&self.elapsed(), 32),
             SysValue::Scan100us => {
                 if self.scan_time.is_none() {

@@ -39,6 +39,9 @@ const TIMER: [TimerPart; 6] = [
 /// The parts of a counter.
 const COUNTER: [CounterPart; 3] = [CounterPart::Value, CounterPart::Done, CounterPart::Coil];
 
+/// Milliseconds of a minute.
+const MINUTE_MS: i64 = 60_000;
+
 /// The device that a piece of memory belongs to.
 pub fn device_of(key: Key) -> Option<(DeviceClass, u32)> {
     match key {
@@ -55,6 +58,7 @@ pub fn device_of(key: Key) -> Option<(DeviceClass, u32)> {
         | Key::First
         | Key::Running
         | Key::Now
+        | Key::Minute
         | Key::Monitor(_) => None,
     }
 }
@@ -75,7 +79,7 @@ fn width(key: Key, unit_ms: u16) -> usize {
     match key {
         Key::Bit(..) | Key::Edge(_) | Key::Flag(_) | Key::First | Key::Running => 1,
         Key::Slot(_) | Key::Outer => 1,
-        Key::Word(..) | Key::Buffer(..) => 16,
+        Key::Word(..) | Key::Buffer(..) | Key::Minute => 16,
         Key::Timer(_, TimerPart::Value | TimerPart::Preset) => 16,
         Key::Timer(_, TimerPart::Part) => match unit_ms {
             ..=1 => 0,
@@ -147,12 +151,12 @@ impl Encoder<'_> {
         let private = (0..module.edges).map(Key::Edge);
         let private = private.chain((0..module.flags.len() as u32).map(Key::Flag));
         let private = private.chain((0..module.cells.len() as u32).map(Key::Cell));
-        for key in
-            private
-                .chain(entries)
-                .chain(self.tokens())
-                .chain([Key::First, Key::Running, Key::Now])
-        {
+        for key in private.chain(entries).chain(self.tokens()).chain([
+            Key::First,
+            Key::Running,
+            Key::Now,
+            Key::Minute,
+        ]) {
             self.add_memory(key);
         }
     }
@@ -178,6 +182,10 @@ impl Encoder<'_> {
             self.constraints.push(less);
             let zero = self.aig.is(&bits, 0);
             self.first_replay_assumptions.push(zero);
+        }
+        if key == Key::Minute {
+            let less = self.aig.below(&bits, &constant(MINUTE_MS, bits.len()));
+            self.constraints.push(less);
         }
         self.before.insert(key, bits.clone());
         // No coil has been executed in a scan that begins.
@@ -220,7 +228,7 @@ impl Encoder<'_> {
             Key::Counter(number, CounterPart::Done) if latched(DeviceClass::C, number) => {
                 (!model.keeps_contacts).then_some(0)
             }
-            Key::Now => None,
+            Key::Now | Key::Minute => None,
             Key::First | Key::Running => Some(1),
             Key::Bit(..)
             | Key::Word(..)
@@ -399,6 +407,31 @@ impl Encoder<'_> {
         keys.filter(is_it).collect()
     }
 
+    /// Adds the time of the scan to that of the minute.
+    fn begin_minute(&mut self, raw: &[Lit]) {
+        let before = self.state[&Key::Minute].clone();
+        let start = self.aig.is(&before, 0);
+        self.first_replay_assumptions.push(start);
+        let width = before.len().max(raw.len()) + 1;
+        let mut now = self
+            .aig
+            .add(&unsigned(&before, width), &unsigned(raw, width));
+        let most = MINUTE_MS + i64::from(self.world.scan_ms.max(1));
+        for minutes in (0..)
+            .map(|k| MINUTE_MS << k)
+            .take_while(|ms| *ms <= most)
+            .collect::<Vec<_>>()
+            .into_iter()
+            .rev()
+        {
+            let minutes = constant(minutes, width);
+            let less = self.aig.below(&now, &minutes);
+            let rest = self.aig.sub(&now, &minutes);
+            now = self.aig.select(less, &now, &rest);
+        }
+        self.state.insert(Key::Minute, unsigned(&now, before.len()));
+    }
+
     /// Makes the time of the scan.
     pub(super) fn begin_time(&mut self) {
         let most = self.world.scan_ms.max(1);
@@ -437,6 +470,7 @@ impl Encoder<'_> {
         let start = self.aig.is(&before, 0);
         self.first_replay_assumptions.push(start);
         self.state.insert(Key::Now, now);
+        self.begin_minute(&raw);
         let many_tens = scaled(self, &hundreds, 10);
         let all_tens = self.aig.add(&many_tens, &unsigned(&tens, width));
         self.time = Some(Time {

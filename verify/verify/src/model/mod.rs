@@ -91,8 +91,10 @@ pub enum Key {
     First,
     /// True if the PLC is in RUN.
     Running,
-    /// Milliseconds since power-on.
+    /// Milliseconds since the first scan.
     Now,
+    /// Milliseconds since the first scan, from 0 again after a minute.
+    Minute,
     /// Memory of a property, by number.
     Monitor(u32),
 }

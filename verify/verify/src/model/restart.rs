@@ -85,7 +85,7 @@ impl Encoder<'_> {
             }
         }
         let mut changed = self.begin_writes();
-        changed.insert(Key::Now);
+        changed.extend([Key::Now, Key::Minute]);
         let answer = Signature::Answer(AFTER_STOP.to_string());
         let other = self.applied(1, AFTER_STOP, answer, &[])[0];
         self.replay_assumptions.push(!other);

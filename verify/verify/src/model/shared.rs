@@ -242,7 +242,7 @@ impl Encoder<'_> {
             Action::Fault { code, .. } => text.push_str(&format!("error {code}")),
             _ => {}
         }
-        keys.extend([Key::Outer, Key::Now, Key::First]);
+        keys.extend([Key::Outer, Key::Now, Key::Minute, Key::First]);
         for key in BTreeSet::from_iter(keys) {
             text.push_str(&format!(" {:?}", self.shared_name(key)));
             bits.extend(self.state.get(&key).into_iter().flatten());
