@@ -153,12 +153,6 @@ static bool open_server(rungc_server_protocol protocol, const char *option, cons
     return true;
 }
 
-/* Returns true if a text is a serial device rather than an address. */
-static bool is_line(const char *text)
-{
-    return strcmp(text, "pty") == 0 || strchr(text, '/') != NULL;
-}
-
 /* The row of a client in the table; those that do not fit share the last one. */
 static tcp_client *client_of(size_t server, const char *address)
 {

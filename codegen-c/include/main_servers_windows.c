@@ -6,11 +6,6 @@ static bool open_server(rungc_server_protocol protocol, const char *option, cons
     return false;
 }
 
-static bool is_line(const char *text)
-{
-    return strchr(text, '/') != NULL;
-}
-
 static bool limit_connections(const char *text)
 {
     (void)text;

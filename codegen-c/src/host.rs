@@ -189,8 +189,8 @@ pub fn main_file(module: &Module, options: &Options) -> String {
     let [begin_clients, ask, asked] = clients::calls(module, servers);
     let keeps = rungc_emit::cycle::keeps_any(module);
     let retain = retaining(keeps, &fields, options.unsaved);
-    let record = format!("{}_RECORD_LENGTH", name.to_ascii_uppercase());
-    let (lines, serving) = (lines(module), server_code(module, servers));
+    let valued = valued(module, &host);
+    let (lines, serving) = (lines(module), server_code(module, servers, &valued));
     let parts = [clock, &lines, &retain.functions, &hardware, &serving];
     let [partner, stopped] = match servers || module.has_ports() {
         true => PARTNER,
@@ -222,10 +222,10 @@ pub fn main_file(module: &Module, options: &Options) -> String {
         .replace("/* WAIT */", wait)
         .replace("ADVANCE", advance)
         .replace("/* INTERRUPTS */", interrupts)
-        .replace("RECORD_LENGTH", &record)
+        .replace("RECORD_LENGTH", &record_length(name))
         .replace("PROGRAM", name)
         // Texts of the program come last: they may contain any word.
-        .replace("        /* OPTIONS */\n", &valued(module, &host))
+        .replace("        /* OPTIONS */\n", &valued)
         .replace("    /* ERRORS */\n", &errors(module))
         .replace("    /* INPUTS */\n", &inputs(module, &fields))
         .replace("    /* USAGE */\n", &usage(module, &host))
@@ -448,8 +448,33 @@ fn constant(protocol: ServerProtocol) -> &'static str {
     }
 }
 
-/// The servers over TCP of a host that has some.
-fn server_code(module: &Module, servers: bool) -> String {
+/// Function of programs with an option that takes either; a pseudo-terminal is one of POSIX.
+const IS_LINE: &str = "\
+/* Returns true if a text is a serial device rather than an address. */
+static bool is_line(const char *text)
+{
+    return PTYstrchr(text, '/') != NULL;
+}
+";
+
+/// [`IS_LINE`], if the options call it.
+fn is_line(options: &str) -> String {
+    match options.contains("is_line(") {
+        true => {
+            let posix = IS_LINE.replace("PTY", "strcmp(text, \"pty\") == 0 || ");
+            by_system(&IS_LINE.replace("PTY", ""), &posix) + "\n"
+        }
+        false => String::new(),
+    }
+}
+
+/// The name of the length of a record of latched devices.
+fn record_length(program: &str) -> String {
+    format!("{}_RECORD_LENGTH", program.to_ascii_uppercase())
+}
+
+/// The servers over TCP of a host that has some; `options`: the statements that take options.
+fn server_code(module: &Module, servers: bool, options: &str) -> String {
     if !servers {
         return String::new();
     }
@@ -468,6 +493,7 @@ fn server_code(module: &Module, servers: bool) -> String {
         .replace("IDLE_LIMIT", &IDLE_S.to_string())
         .replace("HEADING", TABLE_HEADING)
         .replace("ROW,", &format!("\"{TABLE_ROW}\\n\","))
+        + &is_line(options)
 }
 
 /// Format of a row in the table of connections.

@@ -123,13 +123,8 @@ fn ports(out: &mut String, layout: &mut Vec<String>, module: &Module) {
         let codecs = module.codecs();
         let codecs = codecs.map(|codec| format!("&rungc_codec_{}", codec.name()));
         let codecs: Vec<String> = codecs.collect();
-        let _ = writeln!(
-            out,
-            "static const rungc_codec *const {name}_codecs[] = {{{}}};",
-            codecs.join(", ")
-        );
-        layout.push(format!(".codecs = {name}_codecs"));
-        layout.push(format!(".codec_count = {}", codecs.len()));
+        let array = format!("static const rungc_codec *const {name}_codecs[]");
+        layout.extend(list(out, &array, ("codecs", "codec"), name, &codecs));
     }
     out.push('\n');
     let family = format!("{:?}", module.model.ports).to_ascii_uppercase();
@@ -194,6 +189,25 @@ fn table(
     vec![
         format!(".{member} = {name}_{member}"),
         format!(".{ty}_count = {}", rows.len()),
+    ]
+}
+
+/// Writes a table in one line; returns the members of the layout that name it. C has no empty arrays.
+fn list(
+    out: &mut String,
+    array: &str,
+    (member, entry): (&str, &str),
+    name: &str,
+    entries: &[String],
+) -> Vec<String> {
+    if entries.is_empty() {
+        return Vec::new();
+    }
+    // Writing to a String does not fail.
+    let _ = writeln!(out, "{array} = {{{}}};", entries.join(", "));
+    vec![
+        format!(".{member} = {name}_{member}"),
+        format!(".{entry}_count = {}", entries.len()),
     ]
 }
 
