@@ -16,10 +16,11 @@
    operation failed. RAM that keeps its contents works likewise: it erases by writing 0xFF. */
 typedef struct rungc_flash {
     void *context;        /* handed to each function */
-    uint32_t slot_length; /* bytes of each slot */
+    uint32_t slot_length; /* bytes of each slot, a multiple of `word_length` */
+    uint32_t word_length; /* bytes that flash writes at once, a power of 2 up to RUNGC_WORD_MAX; 0 stands for up to 8 */
     bool (*read)(void *context, unsigned slot, uint32_t offset, void *bytes, uint32_t length);
     bool (*erase)(void *context, unsigned slot); /* makes all bytes 0xFF */
-    /* Writes bytes that are erased; offset and length are multiples of 8. */
+    /* Writes bytes that are erased; offset and length are multiples of `word_length`, and of 8. */
     bool (*program)(void *context, unsigned slot, uint32_t offset, const void *bytes, uint32_t length);
 } rungc_flash;
 
@@ -76,9 +77,12 @@ typedef struct rungc_record {
 enum {
     RUNGC_RECORD_HEADER = 15,
     RUNGC_RECORD_RUN = 5,
-    RUNGC_RECORD_CHECKSUM = 4,
-    RUNGC_RECORD_ALIGN = 8 /* records begin at multiples of it */
+    RUNGC_RECORD_CHECKSUM = 4
 };
+
+/* The longest word of flash, and the shortest distance of records; they begin at multiples of the word, or of that. */
+#define RUNGC_WORD_MAX 32u
+#define RUNGC_WORD_MIN 8u
 
 /* Form of a device in a record. */
 typedef enum rungc_form {
@@ -147,11 +151,28 @@ static inline uint32_t rungc_record_length(const rungc_retained *retained)
     return length;
 }
 
-static inline uint32_t rungc_aligned(uint32_t length)
+/* Records begin at multiples of this. */
+static inline uint32_t rungc_record_align(const rungc_flash *flash)
 {
-    const uint32_t align = (uint32_t)RUNGC_RECORD_ALIGN;
+    return (flash->word_length > RUNGC_WORD_MIN) ? flash->word_length : RUNGC_WORD_MIN;
+}
+
+static inline uint32_t rungc_aligned(const rungc_flash *flash, uint32_t length)
+{
+    const uint32_t align = rungc_record_align(flash);
 
     return (length + align - 1u) / align * align;
+}
+
+/* Returns true if all bytes are erased. */
+static inline bool rungc_is_erased(const uint8_t *bytes, uint32_t length)
+{
+    bool erased = true;
+
+    for (uint32_t i = 0; (i < length) && erased; i++) {
+        erased = bytes[i] == 0xFFu;
+    }
+    return erased;
 }
 
 static inline void rungc_number_bytes(uint8_t *bytes, uint32_t value, unsigned count)
@@ -427,8 +448,7 @@ static inline bool rungc_read_slot(void *context, uint32_t offset, void *bytes, 
 /* Looks through a slot for its last complete record, and for where all bytes are erased from. */
 static inline bool rungc_scan_slot(rungc_slots *slots, unsigned slot)
 {
-    static const uint8_t erased[RUNGC_RECORD_ALIGN] = {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF};
-    const uint32_t align = (uint32_t)RUNGC_RECORD_ALIGN;
+    const uint32_t align = rungc_record_align(slots->flash);
     const uint32_t end = slots->flash->slot_length;
     rungc_slot of = {slots->flash, slot};
     const rungc_source source = {rungc_read_slot, &of};
@@ -437,20 +457,20 @@ static inline bool rungc_scan_slot(rungc_slots *slots, unsigned slot)
     uint32_t at = 0;
 
     while ((end - at) >= align) {
-        uint8_t bytes[RUNGC_RECORD_ALIGN];
+        uint8_t bytes[RUNGC_WORD_MAX];
         rungc_record record = {0};
         uint32_t step = align;
 
         if (!rungc_read_slot(&of, at, bytes, align)) {
             return false;
         }
-        if (memcmp(bytes, erased, sizeof bytes) != 0) {
+        if (!rungc_is_erased(bytes, align)) {
             if (!rungc_find_record(&source, at, end, &record)) {
                 return false;
             }
             if (record.length != 0u) {
                 last = record;
-                step = rungc_aligned(record.length);
+                step = rungc_aligned(slots->flash, record.length);
             }
             free_at = at + step;
         }
@@ -491,11 +511,11 @@ static inline rungc_loaded rungc_load(rungc_slots *slots, const rungc_retained *
     return loaded;
 }
 
-/* Makes room for the next record, so that rungc_save does not have to erase. False if flash cannot be erased or a slot is shorter than a
-   record. */
+/* Makes room for the next record, so that rungc_save does not have to erase. False if flash cannot be erased, a slot is shorter than a
+   record, or a word is too long. */
 static inline bool rungc_prepare(rungc_slots *slots, const rungc_retained *retained)
 {
-    const uint32_t length = rungc_aligned(rungc_record_length(retained));
+    const uint32_t length = rungc_aligned(slots->flash, rungc_record_length(retained));
     const uint32_t end = slots->flash->slot_length;
     const bool has_room = slots->has_next && (slots->next_at <= end) && ((end - slots->next_at) >= length);
 
@@ -506,7 +526,7 @@ static inline bool rungc_prepare(rungc_slots *slots, const rungc_retained *retai
         slots->next_slot = slot;
         slots->next_at = 0;
     }
-    return (length <= end) && slots->has_next;
+    return (length <= end) && (rungc_record_align(slots->flash) <= RUNGC_WORD_MAX) && slots->has_next;
 }
 
 /* Gathers bytes to pieces that flash takes. */
@@ -514,13 +534,13 @@ typedef struct rungc_slot_writer {
     const rungc_slots *slots;
     uint32_t at;
     uint32_t used;
-    uint8_t bytes[RUNGC_RECORD_ALIGN];
+    uint8_t bytes[RUNGC_WORD_MAX];
 } rungc_slot_writer;
 
 static inline bool rungc_flush_slot(rungc_slot_writer *writer)
 {
     const rungc_flash *const flash = writer->slots->flash;
-    const uint32_t align = (uint32_t)RUNGC_RECORD_ALIGN;
+    const uint32_t align = rungc_record_align(flash);
     const bool done = flash->program(flash->context, writer->slots->next_slot, writer->at, writer->bytes, align);
 
     writer->at += align;
@@ -537,7 +557,7 @@ static inline bool rungc_put_slot(void *context, const uint8_t *bytes, uint32_t 
     for (uint32_t i = 0; (i < length) && done; i++) {
         writer->bytes[writer->used] = bytes[i];
         writer->used++;
-        if (writer->used == (uint32_t)RUNGC_RECORD_ALIGN) {
+        if (writer->used == rungc_record_align(writer->slots->flash)) {
             done = rungc_flush_slot(writer);
         }
     }
@@ -555,16 +575,17 @@ static inline bool rungc_save(rungc_slots *slots, const rungc_retained *retained
         rungc_slot of = {slots->flash, slots->next_slot};
         const rungc_source source = {rungc_read_slot, &of};
         const uint32_t at = slots->next_at;
-        rungc_slot_writer writer = {slots, at, 0, {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF}};
+        rungc_slot_writer writer = {slots, at, 0, {0}};
         const rungc_sink sink = {rungc_put_slot, &writer};
         rungc_record written = {0};
 
+        (void)memset(writer.bytes, 0xFF, sizeof writer.bytes);
         done = rungc_put_record(retained, plc, sequence, &sink);
         if (done && (writer.used != 0u)) {
             done = rungc_flush_slot(&writer);
         }
         /* A failed write leaves a part of a record. */
-        slots->next_at = at + rungc_aligned(rungc_record_length(retained));
+        slots->next_at = at + rungc_aligned(slots->flash, rungc_record_length(retained));
         done = done && rungc_find_record(&source, at, slots->flash->slot_length, &written) && (written.length != 0u) &&
                (written.sequence == sequence);
         if (done) {
@@ -596,7 +617,7 @@ static inline bool rungc_save_changes(rungc_slots *slots, const rungc_retained *
 /* Number of records that a slot takes between two erasures. */
 static inline uint32_t rungc_saves_per_erasure(const rungc_flash *flash, const rungc_retained *retained)
 {
-    return flash->slot_length / rungc_aligned(rungc_record_length(retained));
+    return flash->slot_length / rungc_aligned(flash, rungc_record_length(retained));
 }
 
 #endif

@@ -69,7 +69,7 @@ static bool program(void *context, unsigned slot, uint32_t offset, const void *b
     cells *const c = context;
     bool done = true;
 
-    CHECK(offset % 8u == 0u && length % 8u == 0u && offset + length <= SLOT);
+    CHECK(offset % ALIGN == 0u && length % ALIGN == 0u && offset + length <= SLOT);
     for (uint32_t i = 0; i < length && done; i++) {
         CHECK(c->slots[slot][offset + i] == 0xFF);
         done = change(c, &c->slots[slot][offset + i], ((const uint8_t *)bytes)[i]);
@@ -104,7 +104,7 @@ static uint32_t sum(const probe_plc *plc)
 
 static rungc_loaded load(cells *c, probe_plc *plc, rungc_slots *slots)
 {
-    static rungc_flash flash = {.slot_length = SLOT, .read = read_flash, .erase = erase, .program = program};
+    static rungc_flash flash = {.slot_length = SLOT, .word_length = WORD, .read = read_flash, .erase = erase, .program = program};
 
     flash.context = c;
     memset(slots, 0, sizeof *slots);
@@ -168,7 +168,7 @@ int main(void)
         CHECK(probe_save_changes(&plc, &slots, ms, 1000));
         CHECK(slots.saved == sum(&plc));
     }
-    CHECK(now.erasures > 0 && now.erasures <= 20 / (SLOT / ((PROBE_RECORD_LENGTH + 7) / 8 * 8)) + 1);
+    CHECK(now.erasures > 0 && now.erasures <= 20 / (SLOT / ((PROBE_RECORD_LENGTH + ALIGN - 1u) / ALIGN * ALIGN)) + 1);
     rungc_retained other = probe_retained;
     other.program = "pump (fx3u)";
     CHECK(rungc_load(&slots, &other, &plc) == RUNGC_LOADED_FOREIGN);
@@ -206,10 +206,19 @@ fn a_save_that_is_cut_short_leaves_the_old_values_or_the_new_ones() {
     }
     std::fs::write(folder.path().join("checks.c"), CHECKS).unwrap();
     let sources = "checks.c probe.c probe_access.c probe_retain.c";
-    for cc in compilers() {
+    // Words of flash; 8 bytes are written at once, or a longer word.
+    let words = [0, 32];
+    for (cc, word) in compilers()
+        .into_iter()
+        .flat_map(|cc| words.map(|word| (cc, word)))
+    {
         let built = Command::new(cc)
             .current_dir(folder.path())
             .args(STRICT)
+            .args([
+                format!("-DWORD={word}u"),
+                format!("-DALIGN={}u", word.max(8)),
+            ])
             .args(["-O1", "-o", "checks"])
             .args(sources.split(' '))
             .output()

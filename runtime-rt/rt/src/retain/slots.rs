@@ -4,8 +4,11 @@ use super::record::{self, Record};
 use super::{Loaded, Retained};
 use crate::program::Program;
 
-/// Records begin at multiples of this, in bytes: the largest unit in which the flash of common parts is written.
-const ALIGN: u32 = 8;
+/// The longest word of flash, in bytes, as that of an STM32H7.
+const MOST: usize = 32;
+
+/// Records begin at multiples of this, in bytes, or of the flash's word if that is longer.
+const LEAST: u32 = 8;
 
 /// Flash did not do what it was asked: an operation failed, or what was written reads back as something else.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -14,13 +17,17 @@ pub struct FlashFailed;
 /// Two slots of flash, 0 and 1, each of which is erased as a whole: one or more of its pages or sectors. RAM that keeps
 /// its contents (battery, FRAM) works likewise: it erases by writing 0xFF.
 pub trait Flash {
-    /// Bytes of each slot.
+    /// Bytes of each slot, a multiple of [`Flash::word_len`].
     fn slot_len(&self) -> u32;
+    /// Bytes that flash writes at once, a power of 2 up to 32. By default, words of up to 8 bytes fit.
+    fn word_len(&self) -> u32 {
+        LEAST
+    }
     /// Reads bytes of a slot.
     fn read(&mut self, slot: usize, offset: u32, bytes: &mut [u8]) -> Result<(), FlashFailed>;
     /// Makes all bytes of a slot 0xFF.
     fn erase(&mut self, slot: usize) -> Result<(), FlashFailed>;
-    /// Writes bytes that are erased. `offset` is a multiple of 8, and so is the number of bytes.
+    /// Writes bytes that are erased. `offset` is a multiple of 8 and of the word, and so is the number of bytes.
     fn program(&mut self, slot: usize, offset: u32, bytes: &[u8]) -> Result<(), FlashFailed>;
 }
 
@@ -95,12 +102,14 @@ impl<F: Flash> Slots<F> {
             .newest
             .map_or(0, |newest| newest.1.sequence.wrapping_add(1));
         // An error from here on leaves a part of a record.
-        self.next = Some((slot, at.saturating_add(aligned(length))));
+        let align = align(&self.flash);
+        self.next = Some((slot, at.saturating_add(length.next_multiple_of(align))));
         let mut writer = Writer {
             flash: &mut self.flash,
             slot,
             at,
-            chunk: [0xFF; ALIGN as usize],
+            chunk: [0xFF; MOST],
+            align,
             used: 0,
         };
         record::write(program, sequence, &mut |bytes| writer.put(bytes))?;
@@ -148,17 +157,20 @@ impl<F: Flash> Slots<F> {
 
     /// Number of records a slot takes between two erasures.
     pub fn saves_per_erasure(&self, retained: &Retained) -> u32 {
-        self.flash.slot_len() / aligned(retained.record_len())
+        let length = retained.record_len();
+        self.flash.slot_len() / length.next_multiple_of(align(&self.flash))
     }
 
     /// Location of the next record: after the newest one, or in the other slot, which is then erased.
     fn room(&mut self, length: u32) -> Result<(usize, u32), FlashFailed> {
         let end = self.flash.slot_len();
-        if aligned(length) > end {
+        let align = align(&self.flash);
+        let length = length.next_multiple_of(align);
+        if length > end || align as usize > MOST {
             return Err(FlashFailed);
         }
         match self.next {
-            Some((slot, at)) if end - at.min(end) >= aligned(length) => Ok((slot, at)),
+            Some((slot, at)) if end - at.min(end) >= length => Ok((slot, at)),
             _ => {
                 let slot = self.newest.map_or(0, |newest| 1 - newest.0);
                 self.next = None;
@@ -170,9 +182,9 @@ impl<F: Flash> Slots<F> {
     }
 }
 
-/// A length up to where the next record may begin.
-fn aligned(length: u32) -> u32 {
-    length.next_multiple_of(ALIGN)
+/// Records begin at multiples of this.
+fn align<F: Flash>(flash: &F) -> u32 {
+    flash.word_len().max(LEAST)
 }
 
 /// Contents of a slot.
@@ -187,20 +199,22 @@ struct Found {
 /// Looks through a slot. What is neither a record nor erased is left of one that was cut short.
 fn scan<F: Flash>(flash: &mut F, slot: usize) -> Result<Found, FlashFailed> {
     let length = flash.slot_len();
+    let align = align(flash);
     let mut found = Found {
         newest: None,
         end: 0,
     };
     let mut at = 0;
-    while length - at >= ALIGN {
-        let mut chunk = [0; ALIGN as usize];
-        flash.read(slot, at, &mut chunk)?;
-        let next = if chunk == [0xFF; ALIGN as usize] {
-            at + ALIGN
+    while length - at >= align {
+        let mut chunk = [0; MOST];
+        let chunk = chunk.get_mut(..align as usize).ok_or(FlashFailed)?;
+        flash.read(slot, at, chunk)?;
+        let next = if chunk.iter().all(|&byte| byte == 0xFF) {
+            at + align
         } else {
             let mut read = |offset, bytes: &mut [u8]| flash.read(slot, offset, bytes);
             let record = record::find(&mut read, at, length)?;
-            let next = at + record.map_or(ALIGN, |record| aligned(record.length));
+            let next = at + record.map_or(align, |record| record.length.next_multiple_of(align));
             found = Found {
                 newest: record.or(found.newest),
                 end: next,
@@ -217,7 +231,8 @@ struct Writer<'f, F> {
     flash: &'f mut F,
     slot: usize,
     at: u32,
-    chunk: [u8; ALIGN as usize],
+    chunk: [u8; MOST],
+    align: u32,
     used: usize,
 }
 
@@ -228,7 +243,7 @@ impl<F: Flash> Writer<'_, F> {
                 *cell = byte;
             }
             self.used += 1;
-            if self.used == self.chunk.len() {
+            if self.used == self.align as usize {
                 self.flush()?;
             }
         }
@@ -236,8 +251,9 @@ impl<F: Flash> Writer<'_, F> {
     }
 
     fn flush(&mut self) -> Result<(), FlashFailed> {
-        self.flash.program(self.slot, self.at, &self.chunk)?;
-        self.at += ALIGN;
+        let chunk = self.chunk.get(..self.align as usize).ok_or(FlashFailed)?;
+        self.flash.program(self.slot, self.at, chunk)?;
+        self.at += self.align;
         self.chunk.fill(0xFF);
         self.used = 0;
         Ok(())

@@ -106,6 +106,7 @@ struct Cells {
     left: usize,
     torn: u8,
     erasures: u32,
+    word: u32,
 }
 
 impl Cells {
@@ -115,6 +116,7 @@ impl Cells {
             left: usize::MAX,
             torn: 0,
             erasures: 0,
+            word: 8,
         }
     }
 
@@ -136,6 +138,9 @@ impl Flash for Cells {
     fn slot_len(&self) -> u32 {
         self.slots[0].len() as u32
     }
+    fn word_len(&self) -> u32 {
+        self.word
+    }
     fn read(&mut self, slot: usize, offset: u32, bytes: &mut [u8]) -> Result<(), FlashFailed> {
         let from = offset as usize;
         bytes.copy_from_slice(&self.slots[slot][from..from + bytes.len()]);
@@ -146,7 +151,9 @@ impl Flash for Cells {
         (0..self.slots[slot].len()).try_for_each(|at| self.change(slot, at, 0xFF))
     }
     fn program(&mut self, slot: usize, offset: u32, bytes: &[u8]) -> Result<(), FlashFailed> {
-        assert!(offset.is_multiple_of(8) && bytes.len().is_multiple_of(8));
+        for unit in [8, self.word] {
+            assert!(offset.is_multiple_of(unit) && (bytes.len() as u32).is_multiple_of(unit));
+        }
         for (at, &byte) in (offset as usize..).zip(bytes) {
             assert_eq!(self.slots[slot][at], 0xFF, "only erased bytes are written");
             self.change(slot, at, byte)?;
@@ -206,6 +213,33 @@ fn a_save_that_is_cut_short_leaves_the_old_values_or_the_new_ones() {
         old = Some(new.state());
     }
     assert!(cuts > 12 * 64 * 4, "{cuts} cuts were tried");
+}
+
+#[test]
+fn flash_is_written_in_whole_words() {
+    for word in [2, 4, 8, 16, 32] {
+        let mut flash = Cells::new(256);
+        flash.word = word;
+        let mut store = Slots::open(flash).unwrap();
+        for state in 1..=9 {
+            let new = Retaining::with_state(state);
+            store.save(&new).unwrap();
+            let (what, found) = loaded(store.flash.clone());
+            assert_eq!(
+                what,
+                Loaded::Restored { dropped: 0 },
+                "words of {word} bytes"
+            );
+            assert_eq!(found.state(), new.state());
+            store = Slots::open(store.flash).unwrap();
+        }
+        let fits = store.saves_per_erasure(&Retaining::new().retained);
+        assert!(store.flash.erasures >= 9 / fits, "{fits} records in a slot");
+    }
+    let mut flash = Cells::new(256);
+    flash.word = 64;
+    let saved = Slots::open(flash).and_then(|mut store| store.save(&Retaining::new()));
+    assert_eq!(saved, Err(FlashFailed));
 }
 
 #[test]
