@@ -172,7 +172,9 @@ pub fn makefile(recipes: &[Recipe]) -> String {
     };
     let mut text = format!(
         "# `make` builds {what}; `make CC=arm-none-eabi-gcc CFLAGS=...` builds for another machine.\n\
-         CFLAGS ?= -std=c99 -O2 -Wall -Wextra -Wconversion -pedantic -ffunction-sections -fdata-sections\n\
+         # A microcontroller gets small code: -O2 may be several times as large.\n\
+         SMALL := $(findstring none-,$(TARGET)$(CC))$(findstring avr-,$(TARGET)$(CC))\n\
+         CFLAGS ?= -std=c99 $(if $(SMALL),-Os,-O2) -Wall -Wextra -Wconversion -pedantic -ffunction-sections -fdata-sections\n\
          LDFLAGS ?= -Wl,--gc-sections\n"
     );
     if recipes.iter().any(Recipe::has_thread) {
