@@ -31,11 +31,20 @@ typedef struct rungc_retained_run {
     uint16_t count; /* number of devices */
 } rungc_retained_run;
 
+/* A latched timer or counter that RST may hold at 0 over power-off, and the bool in the program's struct that says so. */
+typedef struct rungc_retained_reset {
+    uint8_t device; /* its plc_class */
+    uint16_t number;
+    size_t offset;
+} rungc_retained_reset;
+
 /* Data that a program retains over power-off. */
 typedef struct rungc_retained {
     const char *program; /* its name and model: records of another program are not loaded */
     const rungc_retained_run *runs;
     size_t run_count;
+    const rungc_retained_reset *resets; /* NULL: there are none */
+    size_t reset_count;
     bool contacts;       /* true if contacts of timers and counters are retained with their values */
     uint16_t key_number; /* models with a latch key: the register D that has to hold it, or nothing is retained; else 0 */
     int16_t key;
@@ -84,12 +93,16 @@ enum {
 #define RUNGC_WORD_MAX 32u
 #define RUNGC_WORD_MIN 8u
 
+/* Bits of the states of a timer or counter in a record. */
+#define RUNGC_STATE_CONTACT 1u
+#define RUNGC_STATE_RESET 2u
+
 /* Form of a device in a record. */
 typedef enum rungc_form {
     RUNGC_FORM_BIT,
     RUNGC_FORM_WORD,
-    RUNGC_FORM_SHORT, /* a value of two bytes, and a contact */
-    RUNGC_FORM_LONG   /* a value of four bytes, and a contact */
+    RUNGC_FORM_SHORT, /* a value of two bytes, and a byte of states */
+    RUNGC_FORM_LONG   /* a value of four bytes, and a byte of states */
 } rungc_form;
 
 static inline rungc_form rungc_form_of(uint8_t device, uint32_t number)
@@ -206,6 +219,45 @@ static inline plc_class rungc_contacts(uint8_t device)
     return (device == (uint8_t)PLC_CLASS_T) ? PLC_CLASS_TS : PLC_CLASS_CS;
 }
 
+/* The reset state of a timer or counter in the program's struct, as an offset; NULL if it is not retained. */
+static inline const size_t *rungc_reset_offset(const rungc_retained *retained, uint8_t device, uint32_t number)
+{
+    const size_t *offset = NULL;
+
+    for (size_t i = 0; (i < retained->reset_count) && (offset == NULL); i++) {
+        if ((retained->resets[i].device == device) && (retained->resets[i].number == number)) {
+            offset = &retained->resets[i].offset;
+        }
+    }
+    return offset;
+}
+
+/* The states of a timer or counter, as in a record. */
+static inline uint8_t rungc_states(const rungc_retained *retained, const void *plc, uint8_t device, uint32_t number)
+{
+    const size_t *const offset = rungc_reset_offset(retained, device, number);
+    unsigned states = 0;
+
+    if (retained->contacts && (rungc_read_retained(retained, plc, rungc_contacts(device), number) != 0)) {
+        states |= RUNGC_STATE_CONTACT;
+    }
+    if ((offset != NULL) && *(const bool *)((const char *)plc + *offset)) {
+        states |= RUNGC_STATE_RESET;
+    }
+    return (uint8_t)states;
+}
+
+static inline void rungc_restore_states(const rungc_retained *retained, void *plc, uint8_t device, uint32_t number, uint8_t states)
+{
+    const size_t *const offset = rungc_reset_offset(retained, device, number);
+    const bool contact = retained->contacts && ((states & RUNGC_STATE_CONTACT) != 0u);
+
+    (void)retained->write(plc, rungc_contacts(device), number, contact ? 1 : 0);
+    if (offset != NULL) {
+        *(bool *)((char *)plc + *offset) = (states & RUNGC_STATE_RESET) != 0u;
+    }
+}
+
 /* Writes the values of a program's latched devices. On models with a latch key they are 0 without it. */
 static inline bool rungc_put_values(const rungc_retained *retained, const void *plc, const rungc_sink *sink)
 {
@@ -234,11 +286,10 @@ static inline bool rungc_put_values(const rungc_retained *retained, const void *
                 }
             } else {
                 const uint32_t value = (uint32_t)rungc_read_retained(retained, plc, device, number);
-                const bool has_contact = (form != RUNGC_FORM_WORD) && retained->contacts;
 
                 rungc_number_bytes(bytes, value, (form == RUNGC_FORM_LONG) ? 4u : 2u);
-                if (has_contact && (rungc_read_retained(retained, plc, rungc_contacts(run->device), number) != 0)) {
-                    bytes[length - 1u] = 1;
+                if (form != RUNGC_FORM_WORD) {
+                    bytes[length - 1u] = rungc_states(retained, plc, run->device, number);
                 }
             }
             done = sink->put(sink->context, bytes, length);
@@ -379,7 +430,7 @@ static inline bool rungc_restore_device(const rungc_retained *retained, void *pl
         (void)retained->write(plc, device, number, (int16_t)rungc_record_number(bytes, 2));
     }
     if ((form == RUNGC_FORM_SHORT) || (form == RUNGC_FORM_LONG)) {
-        (void)retained->write(plc, rungc_contacts(run->device), number, (retained->contacts && (bytes[length - 1u] != 0u)) ? 1 : 0);
+        rungc_restore_states(retained, plc, run->device, number, bytes[length - 1u]);
     }
     return true;
 }

@@ -45,7 +45,7 @@ static const rungc_retained_run runs[] = {
 /* RUNS */
 };
 
-static bool read_device(const void *plc, plc_class device, uint32_t number, int32_t *value)
+/* TABLE */static bool read_device(const void *plc, plc_class device, uint32_t number, int32_t *value)
 {
     return NAME_read((const NAME_plc *)plc, device, number, value);
 }
@@ -59,7 +59,7 @@ const rungc_retained NAME_retained = {
     .program = \"/* OWNER */\",
     .runs = runs,
     .run_count = sizeof runs / sizeof runs[0],
-    .contacts = /* CONTACTS */,
+/* RESETS */    .contacts = /* CONTACTS */,
     .key_number = /* REGISTER */,
     .key = /* KEY */,
     .read = read_device,
@@ -81,6 +81,10 @@ bool NAME_save_latched(const NAME_plc *plc, rungc_slots *slots)
     return rungc_save(slots, &NAME_retained, plc);
 }
 ";
+
+/// Members of a program with reset states that are retained.
+const RESETS: &str =
+    "    .resets = resets,\n    .reset_count = sizeof resets / sizeof resets[0],\n";
 
 /// The text of `NAME_retain.h`, without its first line.
 pub fn header(module: &Module) -> String {
@@ -114,6 +118,19 @@ pub fn source(module: &Module) -> String {
             run.class, run.first, run.count
         );
     }
+    let mut resets = String::new();
+    for (class, number, flag) in module.retained_resets() {
+        let (name, flag) = (&module.name, &module.flags[flag].name);
+        let _ = writeln!(
+            resets,
+            "    {{PLC_CLASS_{class:?}, {number}, offsetof({name}_plc, {flag})}},"
+        );
+    }
+    let table = format!("static const rungc_retained_reset resets[] = {{\n{resets}}};\n\n");
+    let (table, members) = match resets.is_empty() {
+        true => (String::new(), ""),
+        false => (table, RESETS),
+    };
     let (register, key) = match cycle::latches(module, &Storage::new(module)) {
         Latches::RetainedIf(register, key) => (register, key),
         Latches::Retained | Latches::Lost(..) => (0, 0),
@@ -121,6 +138,8 @@ pub fn source(module: &Module) -> String {
     SOURCE
         .replace("NAME", &module.name)
         .replace("/* RUNS */\n", &rows)
+        .replace("/* TABLE */", &table)
+        .replace("/* RESETS */", members)
         .replace("/* OWNER */", &module.retained_as())
         .replace("/* CONTACTS */", &module.model.keeps_contacts.to_string())
         .replace("/* REGISTER */", &register.to_string())

@@ -94,7 +94,7 @@ impl Source {
             Some(Target::Current(class, number)) => resets.get(class, number),
             _ => None,
         };
-        state.is_some_and(|state| seen.machine.is_reset(state))
+        state.is_some_and(|state| seen.machine.is_held(state))
     }
 
     /// Returns true if its value is worth showing: bits are seen in the ladder, and constants are written there.

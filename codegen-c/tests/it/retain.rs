@@ -7,7 +7,8 @@ use rungc_models::ModelId;
 use std::process::Command;
 
 /// Latched devices of each kind, those of stations in a grid among them.
-const LIST: &str = "LD X0\nOUT T250 K5\nLD X1\nOUT C100 K3\nLD X1\nOUT C220 K70000\nLD M500\nMOV D200 D201\nDMOV D202 D204\n";
+const LIST: &str = "LD X0\nOUT T250 K5\nLD X1\nOUT C100 K3\nLD X1\nOUT C220 K70000\nLD M500\nMOV D200 D201\nDMOV D202 D204\n\
+    LD X2\nCJ P1\nLD X3\nRST C100\nRST C220\nP1\n";
 
 /// A program with flash that loses its supply after some bytes. The byte in work then keeps some of its bits.
 const CHECKS: &str = r#"
@@ -88,6 +89,8 @@ static probe_plc with_state(int state)
     plc.C100.value = (int16_t)-state;
     plc.C220.value = state * 100000;
     plc.C220.done = state % 2 == 0;
+    plc.c100_reset = state % 3 == 0;
+    plc.c220_reset = state % 3 == 1;
     plc.D201 = (int16_t)(state * 256);
     plc.D200 = (int16_t)state;
     plc.M500 = state % 2 == 0;
@@ -160,6 +163,7 @@ int main(void)
     CHECK(load(&now, &plc, &slots) == RUNGC_LOADED_DEVICES);
     CHECK(plc.D200 == 6 && plc.D201 == 1536 && plc.C220.value == 600000 && plc.C220.done);
     CHECK(plc.T250.value == 6 && !plc.T250.done && plc.C100.value == -6 && plc.M500);
+    CHECK(plc.c100_reset && !plc.c220_reset);
     now.erasures = 0;
     for (uint32_t ms = 1000; ms <= 20000; ms += 1000) {
         CHECK(probe_save_changes(&plc, &slots, ms - 1, 1000));

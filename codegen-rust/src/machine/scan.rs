@@ -3,7 +3,7 @@
 use crate::events::hal_parameter;
 use crate::generate::{Generator, Item};
 use crate::storage::PrintStorage;
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_emit::cycle::{self, Latches};
 use rungc_ir::node::FunctionKind;
@@ -164,9 +164,37 @@ impl Generator<'_> {
         });
         let program = self.module.retained_as();
         let contacts = self.module.model.keeps_contacts;
+        let resets = self.retained_resets(&class);
         Some(quote! {
             fn retained(&self) -> #retain::Retained<'_> {
                 #retain::Retained { program: #program, runs: const { &[#(#rows),*] }, contacts: #contacts, key: #key }
+            }
+            #resets
+        })
+    }
+
+    /// The methods for the reset states that are retained; nothing if there are none.
+    fn retained_resets(&self, class: &Ident) -> Option<TokenStream> {
+        let resets: Vec<_> = self.module.retained_resets().collect();
+        let arms = |value: fn(TokenStream) -> TokenStream| -> TokenStream {
+            let arms = resets.iter().map(|&(of, number, flag)| {
+                let of = format_ident!("{of:?}");
+                let number = Literal::u32_unsuffixed(number);
+                let field = self.flag(flag);
+                let value = value(quote!(self.#field));
+                quote!((#class::#of, #number) => #value,)
+            });
+            arms.collect()
+        };
+        let [states, changes] = [arms(|flag| flag), arms(|flag| quote!(#flag = reset))];
+        (!resets.is_empty()).then(|| {
+            quote! {
+                fn is_reset(&self, class: #class, number: u32) -> bool {
+                    match (class, number) { #states _ => false }
+                }
+                fn set_reset(&mut self, class: #class, number: u32, reset: bool) {
+                    match (class, number) { #changes _ => {} }
+                }
             }
         })
     }

@@ -9,6 +9,7 @@ use crate::eval::Value;
 use crate::logic::Logic;
 use rungc_ir::node::{CellId, EdgeId, ExprId, FlagId, FunctionKind, Stmt, TableId, TempId};
 use rungc_ir::{Module, ResetState};
+use rungc_models::runs::rt_class;
 use rungc_models::special::RunCommand;
 use rungc_rt::comm::codec::{self, Codec};
 use rungc_rt::comm::modbus::Profile;
@@ -98,6 +99,8 @@ pub struct Machine<'m> {
     pub(crate) type_code: u16,
     /// Data retained over power-off, and its name in records.
     pub(crate) retained: (String, Vec<RetainedRun>),
+    /// Flags of the reset states that are retained, too.
+    pub(crate) retained_resets: BTreeMap<(Class, u32), FlagId>,
     /// Program memory that partners on a line read, from 8000h on.
     pub(crate) program_memory: Option<&'m [u8]>,
     /// Observer of the execution.
@@ -141,6 +144,10 @@ impl<'m> Machine<'m> {
             ports: vec![Port::new(); module.ports.len()],
             type_code: module.model.type_code(),
             retained: (module.retained_as(), module.retained()),
+            retained_resets: module
+                .retained_resets()
+                .filter_map(|(class, number, flag)| Some(((rt_class(class)?, number), flag)))
+                .collect(),
             program_memory: None,
             observer: None,
         };
@@ -199,8 +206,8 @@ impl<'m> Machine<'m> {
         self.flags[flag]
     }
 
-    /// Returns true if a timer or counter is in its reset state.
-    pub fn is_reset(&self, state: ResetState) -> bool {
+    /// Returns true if the memory of a timer's or counter's reset state says that RST holds it.
+    pub fn is_held(&self, state: ResetState) -> bool {
         match state {
             ResetState::Flag(flag) => self.flags[flag],
             ResetState::Entry(table, number) => {
@@ -446,6 +453,17 @@ impl Program for Machine<'_> {
             runs: &self.retained.1,
             contacts: self.module.model.keeps_contacts,
             key: key.map(|(register, key)| (register.number(), key)),
+        }
+    }
+
+    fn is_reset(&self, class: Class, number: u32) -> bool {
+        let flag = self.retained_resets.get(&(class, number));
+        flag.is_some_and(|&flag| self.flags[flag])
+    }
+
+    fn set_reset(&mut self, class: Class, number: u32, reset: bool) {
+        if let Some(&flag) = self.retained_resets.get(&(class, number)) {
+            self.flags[flag] = reset;
         }
     }
 

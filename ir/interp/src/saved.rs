@@ -55,6 +55,7 @@ impl Machine<'_> {
             ports,
             type_code: _,
             retained: _,
+            retained_resets: _,
             program_memory: _,
             // A scan begins with all.
             restarts_left: _,

@@ -60,6 +60,20 @@ impl ResetStates {
     }
 }
 
+impl Module {
+    /// The flags that hold reset states over STOP and power-off ([`Flag::retained`](crate::node::Flag::retained)), with
+    /// their timers and counters.
+    pub fn retained_resets(&self) -> impl Iterator<Item = (DeviceClass, u32, FlagId)> {
+        let flags = self.flags.iter_enumerated();
+        flags
+            .filter(|(_, flag)| flag.retained)
+            .filter_map(|(id, flag)| {
+                let (class, number) = named(&flag.name)?;
+                Some((class, number, id))
+            })
+    }
+}
+
 /// The device of a flag's name.
 fn named(name: &str) -> Option<(DeviceClass, u32)> {
     let device = name.strip_suffix(END)?;

@@ -2,7 +2,7 @@
 
 use crate::fault::LastError;
 use crate::hal::Hal;
-use crate::plc::Plc;
+use crate::plc::{Class, Plc};
 use crate::retain::Retained;
 
 /// A program and its devices. The host copies the input terminals to X ([`Plc::set_bit`]), calls [`Program::scan`], and
@@ -70,6 +70,19 @@ pub trait Program: Plc {
     /// Values retained over power-off, for a host that saves them ([`crate::retain`]).
     fn retained(&self) -> Retained<'_> {
         Retained::NOTHING
+    }
+
+    /// Returns true if RST holds a latched timer or counter at 0, over power-off too: its reset state
+    /// (h1u-h2u-programming §3.6). Always false for one whose reset state ends when the PLC is switched off.
+    fn is_reset(&self, class: Class, number: u32) -> bool {
+        let _ = (class, number);
+        false
+    }
+
+    /// Gives a latched timer or counter the reset state that a host saved ([`Program::is_reset`]). Nothing changes for
+    /// one whose reset state ends when the PLC is switched off.
+    fn set_reset(&mut self, class: Class, number: u32, reset: bool) {
+        let _ = (class, number, reset);
     }
 
     /// The last operation error, and why the PLC stopped. Going to RUN forgets both.

@@ -26,8 +26,8 @@ pub struct Flag {
     /// Set when a train of pulses of this output Y has been sent to its end ([`rungc_rt::Axis::take_end`], asked
     /// whenever pulses are counted).
     pub pulses_end: Option<u32>,
-    /// Stays as it is over STOP and power-off, with the latched device that it belongs to. Records of latched devices
-    /// do not hold it.
+    /// Stays as it is over STOP and power-off, with the latched device that it belongs to, and records of latched
+    /// devices hold it ([`rungc_rt::Program::is_reset`]).
     pub retained: bool,
 }
 

@@ -13,7 +13,7 @@
 //! | | 4 | CRC-32 (as in zip files) of all before it |
 //!
 //! Relays take a bit each, from the lowest bit of a byte on; registers two bytes; timers and 16-bit counters the value
-//! and a byte for the contact; 32-bit counters the same with four bytes of value.
+//! and a byte whose bit 0 is the contact and bit 1 the reset state; 32-bit counters the same with four bytes of value.
 
 use super::{Loaded, OWNER_MAX, Owner, Retained, RetainedRun};
 use crate::plc::Class;
@@ -28,6 +28,10 @@ pub(super) const HEADER: u32 = 15;
 
 /// Bytes of a run.
 const RUN: u32 = 5;
+
+/// Bits of a timer's or counter's states: its contact, and its reset state ([`Program::is_reset`]).
+const CONTACT: u8 = 1;
+const RESET: u8 = 2;
 
 /// Bytes of the checksum.
 const CHECKSUM: u32 = 4;
@@ -71,9 +75,9 @@ const fn half(bits: u32) -> u32 {
 enum Form {
     Bit,
     Word,
-    /// A value of two bytes, and a contact.
+    /// A value of two bytes, and a byte of states.
     Short,
-    /// A value of four bytes, and a contact.
+    /// A value of four bytes, and a byte of states.
     Long,
 }
 
@@ -164,7 +168,8 @@ fn values<P: Program + ?Sized, E>(program: &P, sink: Sink<'_, E>) -> Result<(), 
                 true => program.word(class, number).unwrap_or(0),
                 false => 0,
             };
-            let contact = u8::from(retained.contacts && bit(number));
+            let contact = CONTACT * u8::from(retained.contacts && bit(number));
+            let states = contact | RESET * u8::from(kept && program.is_reset(class, number));
             match form {
                 Form::Bit => {
                     let bits = (number..end.min(number + 8)).rev();
@@ -173,12 +178,12 @@ fn values<P: Program + ?Sized, E>(program: &P, sink: Sink<'_, E>) -> Result<(), 
                 Form::Word => sink(&word.to_le_bytes())?,
                 Form::Short => {
                     sink(&word.to_le_bytes())?;
-                    sink(&[contact])?;
+                    sink(&[states])?;
                 }
                 Form::Long => {
                     let value = program.counter32(number).filter(|_| kept);
                     sink(&value.unwrap_or(0).to_le_bytes())?;
-                    sink(&[contact])?;
+                    sink(&[states])?;
                 }
             }
         }
@@ -331,17 +336,21 @@ fn restore_one<P: Program + ?Sized, E>(
     let [b0, b1, b2, b3, b4] = bytes;
     let word = i16::from_le_bytes([b0, b1]);
     let contacts = program.retained().contacts;
+    let mut set_states = |program: &mut P, states: u8| {
+        program.set_reset(class, number, states & RESET != 0);
+        program.set_bit(class, number, contacts && states & CONTACT != 0)
+    };
     // A device that the model has and the program does not store takes no value.
     let _ = match form {
         Form::Bit => program.set_bit(class, number, b0 >> (n % 8) & 1 == 1),
         Form::Word => program.set_word(class, number, word),
         Form::Short => {
             let value = program.set_word(class, number, word);
-            value.and(program.set_bit(class, number, contacts && b2 != 0))
+            value.and(set_states(program, b2))
         }
         Form::Long => {
             let value = program.set_counter32(number, i32::from_le_bytes([b0, b1, b2, b3]));
-            value.and(program.set_bit(class, number, contacts && b4 != 0))
+            value.and(set_states(program, b4))
         }
     };
     Ok(())

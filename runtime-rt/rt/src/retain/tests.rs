@@ -20,6 +20,8 @@ const RUNS: [RetainedRun; 5] = [
 struct Retaining {
     plc: Double,
     retained: Retained<'static>,
+    /// Reset states of C100 and C220.
+    resets: [bool; 2],
 }
 
 impl Retaining {
@@ -32,6 +34,7 @@ impl Retaining {
         Retaining {
             plc: Double::new(),
             retained,
+            resets: [false; 2],
         }
     }
 
@@ -49,11 +52,17 @@ impl Retaining {
         }
         kept.set_bit(Class::T, 251, state % 2 == 0).unwrap();
         kept.set_counter32(220, i32::from(state) * 100_000).unwrap();
+        kept.resets = [state % 2 == 0, state % 2 != 0];
         kept
     }
 
     fn state(&self) -> u32 {
         record::state(self)
+    }
+
+    fn reset_of(&self, class: Class, number: u32) -> Option<usize> {
+        let counters = [(Class::C, 100), (Class::C, 220)];
+        counters.iter().position(|&it| it == (class, number))
     }
 }
 
@@ -96,6 +105,14 @@ impl Program for Retaining {
     }
     fn retained(&self) -> Retained<'_> {
         self.retained
+    }
+    fn is_reset(&self, class: Class, number: u32) -> bool {
+        self.reset_of(class, number).is_some_and(|i| self.resets[i])
+    }
+    fn set_reset(&mut self, class: Class, number: u32, reset: bool) {
+        if let Some(i) = self.reset_of(class, number) {
+            self.resets[i] = reset;
+        }
     }
 }
 
@@ -254,6 +271,7 @@ fn every_latched_device_comes_back() {
     assert_eq!(found.bit(Class::M, 520), Some(true));
     assert_eq!(found.bit(Class::M, 519), Some(false));
     assert_eq!(found.bit(Class::T, 251), Some(false));
+    assert_eq!(found.resets, [false, true]);
 }
 
 #[test]
