@@ -47,6 +47,21 @@ fn a_choice_that_another_overrides() {
     }
 }
 
+/// On every family that chooses the ends of a parallel link by relays.
+#[test]
+fn a_plc_that_is_both_ends_of_a_parallel_link() {
+    use ModelId::{Fx1n, Fx2n, Fx3g, Fx3u, H2u};
+    for model in [Fx1n, Fx2n, Fx3g, Fx3u, H2u] {
+        let both = "LD M8000\nOUT M8070\nOUT M8071\nEND\n";
+        assert_eq!(
+            messages(model, both, "W0604"),
+            "the PLC is both master and slave of a parallel link"
+        );
+        let one = "LD M8000\nOUT M8070\nEND\n";
+        assert_eq!(messages(model, one, "W0604"), "");
+    }
+}
+
 /// Links with frames that no manual prints.
 #[test]
 fn a_link_that_an_input_chooses_has_frames_of_its_own() {

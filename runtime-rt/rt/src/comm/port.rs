@@ -7,7 +7,7 @@ use super::modbus::LONGEST_RTU;
 use super::parts::Status;
 use super::port_protocol::{AnyProtocol, PortProtocol};
 use super::slaves::Slave;
-use super::wiring::{Choice, M_PARALLEL_MASTER, M_PARALLEL_SLAVE, PortWiring, value};
+use super::wiring::{M_PARALLEL_MASTER, M_PARALLEL_SLAVE, PortWiring, value};
 use super::{Cut, Frame, LineFault, Memory, Served};
 use crate::hal::{Hal, SerialPort};
 use crate::plc::{Plc, Sys};
@@ -122,7 +122,7 @@ where
     /// Selects the protocol.
     fn choose(&mut self) {
         let wiring = self.wiring();
-        if wiring.choice == Choice::Com1 {
+        if wiring.has_parallel_link(self.plc) {
             let both = M_PARALLEL_MASTER.is_on(self.plc) && M_PARALLEL_SLAVE.is_on(self.plc);
             M_SET_UP_WRONGLY.set(self.plc, both);
         }

@@ -536,7 +536,8 @@ fn noun(protocol: Protocol) -> &'static str {
 fn parallel(code: &Code, facts: &Facts, out: &mut Diagnostics) {
     let mut ports = code.model().ports.all().iter();
     // Its relays are those of the master and of the slave.
-    let Some(port) = ports.find(|wiring| wiring.choice == Choice::Com1) else {
+    let has_relays = |choice| matches!(choice, Choice::Com1 | Choice::Format);
+    let Some(port) = ports.find(|wiring| has_relays(wiring.choice)) else {
         return;
     };
     let on = |write: &&Write| write.first_scan && write.value == Some(1);

@@ -1,6 +1,6 @@
 //! Selection of the protocol of FX's ports, and Modbus on the channels of FX3.
 
-use super::{M_PARALLEL_MASTER, M_PARALLEL_SLAVE, PortWiring, Protocol, value};
+use super::{Choice, M_PARALLEL_MASTER, M_PARALLEL_SLAVE, PortWiring, Protocol, value};
 use crate::comm::LineFault;
 use crate::plc::Plc;
 use crate::special::{Register, Relay};
@@ -107,12 +107,8 @@ impl ModbusWiring {
 impl PortWiring {
     /// The link between PLCs that a program of FX sets up on this port (FX data communication manual, parts B and C).
     pub(super) fn fx_link(&self, plc: &dyn Plc) -> Option<Protocol> {
-        let is_here = |on_channel_2: Relay| {
-            let channel_2 = plc.ports().is_fx3() && on_channel_2.is_on(plc);
-            channel_2 == (self.number == 2)
-        };
-        let nn = is_here(M_NN_CHANNEL_2);
-        let parallel = is_here(M_PARALLEL_CHANNEL_2);
+        let nn = self.has_link(plc, M_NN_CHANNEL_2);
+        let parallel = self.has_link(plc, M_PARALLEL_CHANNEL_2);
         let [master, slave] = [M_PARALLEL_MASTER, M_PARALLEL_SLAVE].map(|relay| relay.is_on(plc));
         match (D_STATION.value(plc), D_SLAVES.value(plc)) {
             (1.., _) if nn => Some(Protocol::NnSlave),
@@ -121,6 +117,21 @@ impl PortWiring {
             _ if parallel && master => Some(Protocol::ParallelMaster),
             _ if parallel && slave => Some(Protocol::ParallelSlave),
             _ => None,
+        }
+    }
+
+    /// Returns true if this is the port of a link that a relay puts on channel 2 (FX3).
+    fn has_link(&self, plc: &(impl Plc + ?Sized), on_channel_2: Relay) -> bool {
+        let channel_2 = plc.ports().is_fx3() && on_channel_2.is_on(plc);
+        channel_2 == (self.number == 2)
+    }
+
+    /// Returns true if M8070 and M8071 set up a parallel link on this port.
+    pub(crate) fn has_parallel_link(&self, plc: &(impl Plc + ?Sized)) -> bool {
+        match self.choice {
+            Choice::Com1 => true,
+            Choice::Format | Choice::Channel => self.has_link(plc, M_PARALLEL_CHANNEL_2),
+            _ => false,
         }
     }
 
