@@ -17,13 +17,12 @@ const LOG: [Register; 22] = D_LOGGED_HOURS.run();
 const ERRORS: [Relay; 8] = Relay(8060).run();
 
 impl Lowerer<'_> {
-    /// The operation errors of the last run are forgotten when RUN begins, on FX and L01S in each scan; their latches
-    /// are not.
+    /// The operation errors of the last run are forgotten when RUN begins, on FX and L01S in each scan, with their code
+    /// (h1u-h2u-programming §8.3: 0 without an error); their latches are not.
     pub(super) fn forget_errors(&mut self) {
         let relay = self.model.error_relay;
         let shown = self.keeps(relay) || self.sums_up_errors();
-        // The code of FX shows the last error as long as there was no other.
-        let code = !self.model.errors_last_a_scan && self.keeps(D_OPERATION_ERROR);
+        let code = self.keeps(D_OPERATION_ERROR);
         if !shown && !code {
             return;
         }

@@ -3,9 +3,9 @@
 use super::Access;
 use crate::Model;
 use rungc_rt::special::{
-    D_ANY_ERROR, D_SCAN_TIME, D_SHORT_TICK, D_TICK, M_ANY_ERROR, M_CLOCK_10_MS, M_CLOCK_FITTED,
-    M_FIRST_SCAN, M_LATER_SCANS, M_LINK_SET_UP, M_MODBUS_SET_UP, M_POWER_FAILS, M_POWER_FAILURE,
-    M_RUNNING, M_STOPPED,
+    D_ANY_ERROR, D_OPERATION_ERROR, D_SCAN_TIME, D_SHORT_TICK, D_TICK, M_ANY_ERROR, M_CLOCK_10_MS,
+    M_CLOCK_FITTED, M_FIRST_SCAN, M_LATER_SCANS, M_LINK_SET_UP, M_MODBUS_SET_UP, M_POWER_FAILS,
+    M_POWER_FAILURE, M_RUNNING, M_STOPPED,
 };
 use rungc_syntax::DeviceClass::{self, D, M};
 
@@ -33,6 +33,7 @@ impl Model {
             M if is(M_POWER_FAILS) || is(M_POWER_FAILURE) => shows_supply,
             // On HM, they are something else, which may be written.
             M => is(M_ANY_ERROR) && row.access == Access::Read,
+            D if number == D_OPERATION_ERROR.number() => self.errors_last_a_scan,
             D if number == D_ANY_ERROR.number() => row.access == Access::Read,
             D if number == D_SCAN_TIME.number() => true,
             D => {
