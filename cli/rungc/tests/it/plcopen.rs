@@ -49,6 +49,46 @@ fn a_program_becomes_a_ladder() {
     assert!(back.starts_with(expected), "{back}");
 }
 
+/// PLCopen XML has comments above networks, not inside.
+#[test]
+fn statements_that_move_are_counted() {
+    let list = "; first\nLD X0\n; inside\nOUT Y0\n; second\n; line\nLD X1\nMPS\nAND X2\nOUT Y1\n\
+        ; branch\nMPP\nOUT Y2\n; end\nEND\n";
+    let one = "LD X0\n; inside\nOUT Y0\nEND\n";
+    let none = "; first\nLD X0\nOUT Y0\n; end\nEND\n";
+    let folder = folder(&[
+        ("two.il", list.as_bytes()),
+        ("one.il", one.as_bytes()),
+        ("none.il", none.as_bytes()),
+    ]);
+    for body in ["ld", "il"] {
+        let convert = |name: &str, to: &str| {
+            let args = ["convert", name, "--to", to, "--body", body];
+            let args = if to == "plcopen" {
+                &args[..]
+            } else {
+                &args[..4]
+            };
+            text(&rungc(folder.path(), args).stderr)
+        };
+        let why = "because PLCopen XML has no place inside";
+        assert_eq!(
+            convert("two.il", "plcopen"),
+            format!(
+                "rungc: 2 statement lines move to the start of their networks, {why}; `--to il` keeps them there\n"
+            )
+        );
+        assert_eq!(
+            convert("one.il", "plcopen"),
+            format!(
+                "rungc: 1 statement line moves to the start of its network, {why}; `--to il` keeps it there\n"
+            )
+        );
+        assert_eq!(convert("none.il", "plcopen"), "");
+        assert_eq!(convert("two.il", "csv"), "");
+    }
+}
+
 #[test]
 fn a_program_becomes_a_list_of_the_standard() {
     let folder = folder(&[("doors.il", DOORS)]);

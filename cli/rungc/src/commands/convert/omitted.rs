@@ -67,6 +67,19 @@ pub fn sentences(
         let retained = format!("RETAIN of {}", listed(&named(&program.retained)));
         say(vec![retained], &in_settings);
     }
+    if to == ConvertTo::Plcopen {
+        sentences.extend(moved(program, back).map(|moved| {
+            let them = pronoun(std::slice::from_ref(&moved));
+            let (moves, network) = match them {
+                "it" => ("moves", "its network"),
+                _ => ("move", "their networks"),
+            };
+            format!(
+                "{moved} {moves} to the start of {network}, because {form} has no place inside; \
+                 `--to il` keeps {them} there"
+            )
+        }));
+    }
     sentences
 }
 
@@ -134,10 +147,6 @@ fn instructions(program: &Program, back: &Program) -> Vec<String> {
 
 /// The texts that do not come back: statements, notes, title and CPU type.
 fn texts(program: &Program, back: &Program) -> Vec<String> {
-    fn statements(program: &Program) -> impl Iterator<Item = &str> {
-        let above = program.instrs.iter().filter_map(Instr::statement);
-        above.chain(program.closing.as_deref()).flat_map(str::lines)
-    }
     fn notes(program: &Program) -> impl Iterator<Item = &str> {
         program.instrs.iter().filter_map(Instr::note)
     }
@@ -154,6 +163,31 @@ fn texts(program: &Program, back: &Program) -> Vec<String> {
         cpu,
     ];
     texts.into_iter().flatten().collect()
+}
+
+/// The statement lines that come back above another instruction.
+fn moved(program: &Program, back: &Program) -> Option<String> {
+    fn places(program: &Program) -> Vec<String> {
+        let instrs = program.instrs.iter();
+        let lines = |instr: &Instr| {
+            let lines = instr.statement().into_iter().flat_map(str::lines);
+            Vec::from_iter(lines.map(|line| format!("{line}\n{instr}")))
+        };
+        instrs.flat_map(lines).collect()
+    }
+    let [old, new] = [places(program), places(back)];
+    let [old, new] = [&old, &new].map(|places| places.iter().map(String::as_str));
+    let elsewhere: usize = lacking(old, new).values().sum();
+    let lost: usize = lacking(statements(program), statements(back))
+        .values()
+        .sum();
+    some(elsewhere.saturating_sub(lost), "statement line")
+}
+
+/// The lines of all statements.
+fn statements(program: &Program) -> impl Iterator<Item = &str> {
+    let above = program.instrs.iter().filter_map(Instr::statement);
+    above.chain(program.closing.as_deref()).flat_map(str::lines)
 }
 
 /// The latched devices that the parameters choose, if the output leaves other ones latched.
