@@ -8,7 +8,7 @@ use rungc_syntax::{Diagnostic, Fix, Severity, Span};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::io;
-use std::path::Path;
+use std::path::{Path, is_separator};
 
 /// A log in the making.
 #[derive(Default)]
@@ -214,13 +214,16 @@ fn logical(location: &Location) -> Option<Value> {
 }
 
 /// A path as a URI reference: its separators as they are on the web, and everything escaped that has a meaning there or
-/// none.
+/// none. A name that is not UTF-8 keeps its bytes.
 pub fn uri(path: &Path) -> String {
-    let path = path.to_string_lossy().replace('\\', "/");
-    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/-._~".contains(&byte);
-    path.bytes().fold(String::new(), |uri, byte| match byte {
-        _ if plain(byte) => format!("{uri}{}", char::from(byte)),
-        _ => format!("{uri}%{byte:02X}"),
+    let bytes = path.as_os_str().as_encoded_bytes().iter();
+    bytes.fold(String::new(), |mut uri, &byte| {
+        match char::from(byte) {
+            c if is_separator(c) => uri.push('/'),
+            c if c.is_ascii_alphanumeric() || "-._~".contains(c) => uri.push(c),
+            _ => uri.push_str(&format!("%{byte:02X}")),
+        }
+        uri
     })
 }
 
@@ -233,5 +236,17 @@ mod tests {
     fn paths_are_escaped() {
         assert_eq!(uri(Path::new("a b/电.il")), "a%20b/%E7%94%B5.il");
         assert_eq!(uri(Path::new("/plc/MAIN.wpg")), "/plc/MAIN.wpg");
+    }
+
+    /// In GBK, as archives from Chinese Windows leave them.
+    #[cfg(unix)]
+    #[test]
+    fn names_that_are_not_utf8_stay_apart() {
+        use std::ffi::OsStr;
+        use std::os::unix::ffi::OsStrExt;
+        let names: [&[u8]; 2] = [b"\xB5\xE7/1.il", b"\xBB\xFA/1.il"];
+        let uris = names.map(|name| uri(Path::new(OsStr::from_bytes(name))));
+        assert_eq!(uris, ["%B5%E7/1.il", "%BB%FA/1.il"]);
+        assert_eq!(uri(Path::new("a\\b.il")), "a%5Cb.il");
     }
 }
