@@ -10,7 +10,7 @@ use super::check::draw;
 use super::properties::{Reader, RequestedProperty, at_writes, module, report_undriven};
 use super::run::{hardware, recording::Recording};
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, interruption, print_text, read};
+use super::{Context, Failure, Outcome, Result, check_name, interruption, print_text, read};
 use crate::args::{ExploreArgs, Latched};
 use crate::output::{spare, write_file};
 use crate::progress;
@@ -57,6 +57,8 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
         spare(path, args.force)?;
     }
     let subject = subject::one(&args.input, cx)?;
+    // What was found is replayed as tests.
+    check_name(&subject.file, "a test file")?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let read = match read(&subject, &mut reporter) {
         Ok(read) => read,

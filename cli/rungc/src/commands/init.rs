@@ -1,6 +1,6 @@
 //! `rungc init`.
 
-use super::{Context, Failure, Outcome, Result, parent_dir};
+use super::{Context, Failure, Outcome, Result, check_name, parent_dir};
 use crate::args::InitArgs;
 use crate::output::write_file;
 use rungc_models::ModelId;
@@ -30,6 +30,7 @@ pub fn run(args: &InitArgs, cx: Context) -> Result {
             Ok(inside) => inside,
             Err(_) => program.file_name().map_or(Path::new("."), Path::new),
         });
+    name.map_or(Ok(()), |name| check_name(name, FILE))?;
     let path = match folder == Path::new(".") {
         true => PathBuf::from(FILE),
         false => folder.join(FILE),

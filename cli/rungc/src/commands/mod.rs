@@ -348,6 +348,17 @@ fn counts(totals: &Totals) -> String {
     }
 }
 
+/// Returns an error for a file that `what`, a file in TOML, cannot name: its texts are UTF-8.
+fn check_name(file: &Path, what: &str) -> std::result::Result<(), Failure> {
+    match file.to_str() {
+        Some(_) => Ok(()),
+        None => Err(Failure::Because(format!(
+            "{}: its name is not UTF-8, so {what} cannot name it; rename it",
+            file.display()
+        ))),
+    }
+}
+
 /// The folder that a path lies in.
 pub fn parent_dir(path: &Path) -> &Path {
     path.parent()

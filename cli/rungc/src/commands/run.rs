@@ -25,7 +25,8 @@ use super::setting::{self, Setting, devices as observed};
 use super::subject::{self, Subject};
 use super::view::title;
 use super::{
-    Context, Failure, Result, Verbosity, conclude, eprint_line, findings, parent_dir, read, stem,
+    Context, Failure, Result, Verbosity, check_name, conclude, eprint_line, findings, parent_dir,
+    read, stem,
 };
 use crate::args::RunArgs;
 use crate::output::{make_folder, refuse_outside, spare};
@@ -161,6 +162,9 @@ fn recorder(
     repeatable(args, subject, connected)?;
     spare(path, args.force)?;
     let files = (subject.file.as_path(), args.machine.as_deref());
+    for file in [Some(files.0), files.1].into_iter().flatten() {
+        check_name(file, "a test file")?;
+    }
     Ok(Some(Recorder::begin(path, files, watched)))
 }
 

@@ -12,7 +12,7 @@ use super::properties::{
     ExternalWrites, Reader, RequestedProperty, at_writes, module, report_undriven,
 };
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, put, read};
+use super::{Context, Failure, Outcome, Result, check_name, put, read};
 use crate::args::VerifyArgs;
 use crate::output::{file, spare, write_file};
 use crate::report::Reporter;
@@ -61,6 +61,9 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     }
     evidence::check(args)?;
     let subject = subject::one(&args.input, cx)?;
+    if args.write_test.is_some() {
+        check_name(&subject.file, "a test file")?;
+    }
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let read = match read(&subject, &mut reporter) {
         Ok(read) => read,

@@ -374,3 +374,28 @@ fn encoders_turn_in_both_directions() {
     assert!(test.contains(step), "{test}");
     assert_eq!(code(folder.path(), &["test", "found.plctest.toml"]), 1);
 }
+
+/// Texts of TOML are UTF-8: what names such a program could not be read back.
+#[cfg(target_os = "linux")]
+#[test]
+fn programs_that_no_test_file_can_name_are_rejected() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let folder = folder(&[]);
+    let name = OsStr::from_bytes(b"\xB5\xE7.il");
+    std::fs::write(folder.path().join(name), "LD X0\nOUT Y0\nEND\n").unwrap();
+    let write = ["--write-test", "t.plctest.toml"];
+    for args in [
+        vec!["init", "."],
+        vec!["explore", ".", "--for", "100ms"],
+        [&["verify", ".", "--never", "Y0"][..], &write].concat(),
+        [&["run", ".", "--for", "100ms"][..], &write].concat(),
+    ] {
+        let output = rungc(folder.path(), &args);
+        let messages = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {messages}");
+        let why = "cannot name it; rename it";
+        assert!(messages.contains(why), "{args:?}: {messages}");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
