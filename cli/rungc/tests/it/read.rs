@@ -2,11 +2,12 @@
 //! nonsense.
 
 use crate::common::running::Run;
-use crate::common::{HANG, MOTOR, folder, rungc, text};
+use crate::common::{HANG, MOTOR, folder, rungc, soon, text};
 use std::fs;
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::Path;
+use std::process::Command;
 use std::thread;
 use std::time::Instant;
 
@@ -224,6 +225,31 @@ fn a_plc_that_does_not_answer_is_given_up() {
         text.starts_with("E01").then(|| framed("00"))
     });
     insta::assert_snapshot!("read_short", short);
+}
+
+/// Whatever `--timeout` says, and nothing is written.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_read_ends_at_once() {
+    let folder = folder(&[]);
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = format!("tcp:{}", listener.local_addr().unwrap());
+    let patient = ["--timeout", "600000", "-o", "out.il"];
+    let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(["read", "--port", &port])
+        .args(patient)
+        .current_dir(folder.path())
+        .spawn()
+        .unwrap();
+    let mut line = listener.accept().unwrap().0;
+    let mut asked = [0];
+    line.read_exact(&mut asked).unwrap();
+    let pid = child.id().to_string();
+    let ended = Command::new("kill").args(["-TERM", &pid]).status();
+    assert!(ended.unwrap().success());
+    soon("it ends", || child.try_wait().unwrap().is_some());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
 #[test]

@@ -101,9 +101,6 @@ impl Client {
     fn exchange(&mut self, request: &[u8]) -> Result<Reply, Failure> {
         let mut why = "";
         for attempt in 0..=self.retries {
-            if interruption::is_requested() {
-                return Err(self.failure("interrupted"));
-            }
             if attempt > 0 {
                 self.read_away()?;
             }
@@ -164,8 +161,12 @@ impl Client {
         Ok(())
     }
 
-    /// Received characters; empty if the line was silent.
+    /// Received characters; empty if the line was silent. An interruption ends the command here, however long an answer
+    /// may take.
     fn read(&mut self) -> Result<Vec<u8>, Failure> {
+        if interruption::is_requested() {
+            return Err(self.failure("interrupted"));
+        }
         let mut buffer = [0; LONGEST];
         match self.wire.receive(&mut buffer) {
             Ok(count) => Ok(buffer[..count].to_vec()),
