@@ -2,6 +2,7 @@
 
 use super::Recognised;
 use crate::csv;
+use crate::il::is_basic;
 
 const RECORDS: &str = "name the program that the memory was made of";
 const BYTES: &str = "name the file that the bytes are of; `xxd -r` and `base64 -d` make it again";
@@ -82,6 +83,15 @@ pub(super) fn other(name: &str, text: &str, lines: &[&str]) -> Option<Recognised
         return is(
             "a cross-reference of rungc",
             "name the program that it was made of",
+        );
+    }
+    // A row of a drawn ladder has wires.
+    let is_row = |line: &&&str| line.starts_with('|') && !line.contains("--");
+    let mut rows = lines.iter().filter(is_row);
+    if rows.any(|line| line.split('|').any(|cell| is_basic(cell.trim()))) {
+        return is(
+            "a table (Markdown)",
+            "write a line for each row, such as `LD X000`, or save the table as CSV",
         );
     }
     let is_table = first.starts_with("time ") || first.starts_with("time,");

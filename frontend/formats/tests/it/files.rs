@@ -184,6 +184,21 @@ fn doubtful_rows_of_comments_are_named() {
     insta::assert_snapshot!(found.join("\n---\n"));
 }
 
+/// Answers of assistants and pages of forges have lists as tables.
+#[test]
+fn tables_in_markdown_are_named() {
+    for table in [
+        "| LD | X000 |\n| OUT | Y000 |\n| END | |\n",
+        "| Step | Instruction | Device |\n|---|---|---|\n| 0 | LDI | X000 |\n| 1 | OUT | Y000 |\n| 2 | END | |\n",
+        "|0|ld|X0|\n|1|out|Y0|\n",
+    ] {
+        let found = recognise("a.txt", table.as_bytes()).map(|found| found.what);
+        assert_eq!(found, Some("a table (Markdown)"), "{table}");
+    }
+    let drawn = "|  X000     +-----+ |\n|--] [------| MOV |-|\n|  X001              |\n";
+    assert_eq!(recognise("a.txt", drawn.as_bytes()), None);
+}
+
 /// Steps may end with a sign; dumps are not lists. Zeros after a text fill its block, and steps may be full-width.
 #[test]
 fn lists_are_told_from_dumps() {

@@ -227,3 +227,11 @@ fn numbers_get_what_their_operand_names() {
         assert!(!constant, "{line}: {help}");
     }
 }
+
+/// `OUT T0 K50` in two lines, as editors copy lists.
+#[test]
+fn operands_on_a_line_without_their_instruction() {
+    let divided = shown(ModelId::Fx3u, "LD X0\nOUT T0\nK50\nLD T0\nOUT Y0\nEND\n");
+    let help = "`K50` is an operand: write it on the line of its instruction";
+    assert!(divided.contains(help), "{divided}");
+}

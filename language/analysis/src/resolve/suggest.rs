@@ -175,7 +175,19 @@ pub(super) fn meant(instr: &Instr, open: Open, last: bool, model: &Model) -> Opt
         .or_else(|| mistyped_label(instr))
         .or_else(|| glued(instr, model))
         .or_else(|| moved_affix(instr, model))
+        .or_else(|| operand(name))
         .or_else(|| similar(instr, open, last, model).filter(|_| name.len() <= LONGEST))
+}
+
+/// `K50`, where a line of `OUT T0` has been divided, as editors copy lists.
+fn operand(name: &str) -> Option<Meant> {
+    glued_operands(name).filter(|all| all.len() == 1)?;
+    Some(Meant {
+        help: format!("`{name}` is an operand: write it on the line of its instruction"),
+        found: None,
+        label: None,
+        instead: None,
+    })
 }
 
 fn habit(name: &str) -> Option<Meant> {
