@@ -123,6 +123,8 @@ pub struct Verify {
     pub free: Vec<Range>,
     /// The longest time from one scan to the next.
     pub scan: Option<Named>,
+    /// Limit of the effort for each property, in steps of the search.
+    pub effort: Option<u32>,
     /// Time limit for each property.
     pub timeout: Option<Named>,
 }

@@ -40,7 +40,7 @@ const TABLES: [(&str, &[&str]); 17] = [
     ("serve", &[]),
     ("hmi", &["reads", "writes"]),
     (IO, &[]),
-    ("verify", &["assume", "free", "scan", "timeout"]),
+    ("verify", &["assume", "free", "scan", "effort", "timeout"]),
     (MODBUS, &[]),
     (CANLINK, canlink::KEYS),
     (MODULE, &[]),

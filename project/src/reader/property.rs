@@ -203,6 +203,10 @@ impl Reader {
     pub(super) fn verify(&mut self, table: &DeTable<'_>, project: &mut Project) {
         project.verify.assume = self.list(table, "assume");
         project.verify.scan = self.duration(table, "scan");
+        if table.contains_key("effort") {
+            let efforts = 1..=u32::MAX;
+            project.verify.effort = self.number(table, Span::default(), "effort", efforts, None);
+        }
         project.verify.timeout = self.duration(table, "timeout");
         project.verify.free = self.devices(table, "free", "M100-M115");
     }

@@ -54,6 +54,12 @@ Y = ["Y000-Y017"]
 [hmi]
 writes = ["D70-D79", "M100"]
 reads = "Y000-Y007"
+
+[verify]
+assume = ["!X000"]
+scan = "50ms"
+effort = 50_000
+timeout = "10s"
 "#;
 
 fn every_setting() -> Project {
@@ -107,6 +113,18 @@ fn settings_of_the_program_are_read() {
         (DeviceClass::D, 200, 511),
     ];
     assert_eq!(latched, expected);
+}
+
+#[test]
+fn settings_of_proofs_are_read() {
+    let verify = every_setting().verify;
+    let texts = [verify.scan, verify.timeout].map(|named| named.map(|named| named.text));
+    assert_eq!(texts, ["50ms", "10s"].map(|text| Some(text.to_string())));
+    assert_eq!(verify.effort, Some(50_000));
+    for wrong in ["0", "-1", "1.5", "\"50000\"", "4294967296"] {
+        let found = mistakes(&format!("[verify]\neffort = {wrong}\n"));
+        assert!(found.contains("`effort` is 1 to 4294967295"), "{found}");
+    }
 }
 
 #[test]

@@ -27,7 +27,7 @@ pub struct VerifyArgs {
     #[arg(long)]
     pub cleared: bool,
     /// Limit of the effort per property, in steps of the search; 1000 are about a second. What is found does not depend
-    /// on the machine or its load. Default: 10000, or no limit with a time limit.
+    /// on the machine or its load. Default: that of rungc.toml, else 10000, or no limit with a time limit.
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..), value_name = "NUMBER")]
     pub effort: Option<u64>,
     /// Time limit per property, in real time. With it, verdicts depend on the speed of the machine. Default: that of

@@ -255,7 +255,9 @@ fn options(
     assumed: &[(String, Condition)],
     external: &ExternalWrites,
 ) -> std::result::Result<Options, Failure> {
-    let timeout = reader.project().and_then(|p| p.verify.timeout.as_ref());
+    let settings = reader.project().map(|project| &project.verify);
+    let timeout = settings.and_then(|verify| verify.timeout.as_ref());
+    let effort = settings.and_then(|verify| verify.effort);
     let timeout = match (args.timeout, timeout) {
         (None, None) => None,
         (given, named) => Some(Duration::from_millis(reader.chosen(given, named, 0)?)),
@@ -268,7 +270,7 @@ fn options(
             ..World::default()
         },
         assumed: assumed.iter().map(|(_, a)| a.clone()).collect(),
-        effort: match (args.effort, timeout) {
+        effort: match (args.effort.or(effort.map(u64::from)), timeout) {
             (Some(effort), _) => effort,
             (None, Some(_)) => u64::MAX,
             (None, None) => EFFORT,

@@ -337,7 +337,7 @@ fn the_commands_of_the_example_run() {
             run += 1;
         }
     }
-    assert_eq!(run, 16);
+    assert_eq!(run, 18);
     for (file, begins) in [
         ("tests.sarif", "{"),
         ("tests.xml", "<?xml"),
