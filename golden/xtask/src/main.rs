@@ -1,6 +1,6 @@
 //! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file, `cargo xtask
 //! package` the packages that are published, `cargo xtask platforms` checks other systems, `cargo xtask campaign`
-//! compares engines for hours. No crate may depend on this one. Start reading at `generate.rs`, the table of generated
+//! compares engines for hours, `cargo xtask pairs` measures the prover. No crate may depend on this one. Start reading at `generate.rs`, the table of generated
 //! files.
 
 mod book;
@@ -9,6 +9,7 @@ mod crates;
 mod generate;
 mod header;
 mod package;
+mod pairs;
 mod platforms;
 mod rungc;
 mod tools;
@@ -35,6 +36,8 @@ enum Chore {
     Platforms(platforms::Args),
     /// Compare random programs on every way to run them, for hours.
     Campaign(campaign::Args),
+    /// Measure the prover's precision: decide which outputs of real programs exclude each other.
+    Pairs(pairs::Args),
 }
 
 /// Error of a chore, as a message.
@@ -51,6 +54,7 @@ fn main() -> ExitCode {
         Chore::Package(args) => package::run(&args),
         Chore::Platforms(args) => platforms::run(&args),
         Chore::Campaign(args) => campaign::run(&args),
+        Chore::Pairs(args) => pairs::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
