@@ -3,13 +3,12 @@
 //! The runtime shows an error when it occurs ([`rungc_rt::report`] and others).
 
 use super::Lowerer;
-use rungc_ir::node::{Access, Action, Expr, ExprId, SysValue};
-use rungc_rt::RtFn;
+use rungc_ir::node::{Access, Action, BinOp, Expr, ExprId, SysValue};
 use rungc_rt::special::{
-    D_ANY_ERROR, D_LOGGED_HOURS, D_OPERATION_ERROR, M_ANY_ERROR, M_OPERATION_ERROR, M_PORT_ERROR,
-    M_PROGRAMMING_PORT_ERROR, M_WATCHDOG, Register, Relay,
+    D_ANY_ERROR, D_LOGGED_HOURS, D_OPERATION_ERROR, D_RUN_TIME, M_ANY_ERROR, M_OPERATION_ERROR,
+    M_PORT_ERROR, M_PROGRAMMING_PORT_ERROR, M_WATCHDOG, Register, Relay,
 };
-use rungc_syntax::DeviceClass::M;
+use rungc_syntax::DeviceClass::{D, M};
 
 /// The error log of H1U/H2U: hours, codes, and the running time in seconds.
 const LOG: [Register; 22] = D_LOGGED_HOURS.run();
@@ -101,10 +100,35 @@ impl Lowerer<'_> {
             || rules.logs && LOG.iter().any(|&register| self.keeps(register))
     }
 
+    /// The log's last pair counts the seconds of RUN; a cell counts the milliseconds of the second.
+    fn count_run_time(&mut self) {
+        self.specials
+            .flags
+            .extend(LOG.map(|register| (D, register.number())));
+        let part = self.cell(
+            "run_time_ms".to_string(),
+            "milliseconds of the running time's second",
+        );
+        let (part_value, passed) = (
+            self.add(Expr::Cell(part)),
+            self.add(Expr::Sys(SysValue::SinceScanMs)),
+        );
+        let ms = self.add(Expr::Bin(BinOp::SatAdd, part_value, passed));
+        let ms = self.settled(ms);
+        let second = self.int(1000, true);
+        let rest = self.add(Expr::Bin(BinOp::Rem, ms, second));
+        self.emit(Action::SetCell(part, rest));
+        let over = self.add(Expr::Bin(BinOp::Div, ms, second));
+        let pair = Access::pair(D_RUN_TIME);
+        let seconds = self.add(Expr::Read(pair));
+        let seconds = self.add(Expr::Bin(BinOp::Add, seconds, over));
+        self.emit(Action::Write(pair, seconds));
+    }
+
     /// D8510 and D8511 (H1U/H2U), whose hours are in the log.
     pub(super) fn run_time(&mut self) {
         if LOG.iter().any(|&register| self.keeps(register)) {
-            self.call_system(RtFn::RunTime, &LOG);
+            self.count_run_time();
         }
     }
 }

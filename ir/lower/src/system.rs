@@ -289,13 +289,27 @@ impl Lowerer<'_> {
         if !registers.iter().any(|&register| self.keeps(register)) {
             return;
         }
-        let count = |this: &mut Self| this.call_system(RtFn::RingCounter, &registers);
+        let count = |this: &mut Self| this.count_ring(registers);
         if !self.model.scan_keeps(relay) {
             count(self);
         } else if self.keeps(relay) {
             let counts = self.add(Expr::Read(Access::bit(relay)));
             self.when(counts, count);
         }
+    }
+
+    /// D8398 and D8399 are a number of 31 bits.
+    fn count_ring(&mut self, registers: [Register; 2]) {
+        self.specials
+            .flags
+            .extend(registers.map(|register| (D, register.number())));
+        let pair = Access::pair(registers[0]);
+        let count = self.add(Expr::Read(pair));
+        let passed = self.add(Expr::Sys(SysValue::SinceScanMs));
+        let count = self.add(Expr::Bin(BinOp::Add, count, passed));
+        let mask = self.int(i32::MAX, true);
+        let count = self.add(Expr::Bin(BinOp::And, count, mask));
+        self.emit(Action::Write(pair, count));
     }
 
     /// M8015 to M8019 and D8013 to D8019.

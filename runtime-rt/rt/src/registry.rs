@@ -305,7 +305,6 @@ registry! {
     Ramp = handy::ramp(s1, s2, d, n) [state, always];
     Rotc = handy::rotc(s, m1, m2, d) [state, always];
     Sort = handy::sort(s, m1, m2, d, n) [state, always];
-    RunTime = system::run_time() [state, always];
     LogError = system::log_error(n);
     PowerSupply = supply::power_supply() [state, always, hal];
     AnalogInputs = system::analog_inputs() [always, hal];
@@ -313,7 +312,6 @@ registry! {
     ExchangeModule = exchange::exchange_module(unit, d, reads, n, period) [state, always, hal];
     ExchangeBoard = exchange::exchange_board(s, d) [always, hal];
     ExchangeAdapter = exchange::exchange_adapter(unit, m, d, sent, received) [always, hal];
-    RingCounter = system::ring_counter() [always];
     Oscilloscope = scope::oscilloscope(n, d) [state];
     Ptab = segment::ptab(s, d, n) [state, always];
     Pctab = cut::pctab(s, d) [state, always];

@@ -1,24 +1,9 @@
-//! Updates of special registers by the scan in addition to the program: the running time of H1U/H2U
-//! (h1u-h2u-programming §8.2.2) and the built-in analog inputs of L01S (l01s-programming §5.1) and potentiometers of
-//! FX3G.
+//! Updates of special registers by the scan in addition to the program: the built-in analog inputs of L01S
+//! (l01s-programming §5.1) and potentiometers of FX3G; and errors that the program itself finds.
 
 use crate::cx::Cx;
 use crate::fault::Done;
-use crate::special::{D_ANALOG_ENABLE, D_ANALOG_INPUTS, D_RUN_TIME, D_SLOW_RING_COUNTER};
-use crate::word::{pair, words};
-
-/// The running time, once a scan after the program. Memory: milliseconds of the second.
-pub fn run_time(cx: &mut Cx) -> Done {
-    let dt = cx.dt_ms();
-    let ms = cx.state().0[0].saturating_add(dt);
-    cx.state().0[0] = ms % 1000;
-    let [low, high] = D_RUN_TIME.run().map(|register| cx.special_word(register));
-    let seconds = pair(low, high).wrapping_add(ms / 1000);
-    for (register, word) in D_RUN_TIME.run::<2>().into_iter().zip(words(seconds)) {
-        cx.set_special_word(register, word);
-    }
-    Ok(())
-}
+use crate::special::{D_ANALOG_ENABLE, D_ANALOG_INPUTS};
 
 /// An error that the program itself found enters the log.
 pub fn log_error(cx: &mut Cx) -> Done {
@@ -50,31 +35,10 @@ pub fn potentiometers(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// D8398 and D8399 count the milliseconds, once a scan before the program, up to 2147483647 and from 0 again.
-pub fn ring_counter(cx: &mut Cx) -> Done {
-    let [low, high] = D_SLOW_RING_COUNTER
-        .run()
-        .map(|register| cx.special_word(register) as u16);
-    let count = u32::from(high) << 16 | u32::from(low);
-    let count = count.wrapping_add(cx.dt_ms() as u32) & 0x7fff_ffff;
-    cx.set_special_word(D_SLOW_RING_COUNTER, count as i16);
-    cx.set_special_word(D_SLOW_RING_COUNTER.after(1), (count >> 16) as i16);
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use crate::RtFn;
     use crate::double::Double;
-
-    #[test]
-    fn the_running_time_counts_seconds() {
-        let mut plc = Double::new();
-        for _ in 0..3 {
-            plc.scan(3_600_000, true, RtFn::RunTime, &[]).unwrap();
-        }
-        assert_eq!(plc.dd(8510), 3 * 3600);
-    }
 
     #[test]
     fn analog_inputs_work_once_switched_on() {

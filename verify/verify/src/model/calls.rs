@@ -53,13 +53,11 @@ fn own_specials(function: RtFn) -> Option<Vec<(DeviceClass, u32, u32)>> {
 fn own_work(function: RtFn) -> String {
     let what = match function {
         RtFn::ClockRefresh | RtFn::ClockRefreshShort => "registers of the clock",
-        RtFn::RunTime => "counters of the running time",
         RtFn::PowerSupply => "relays and registers of the power supply",
         RtFn::AnalogInputs | RtFn::Potentiometers => "analog inputs",
         RtFn::ExchangeModule | RtFn::ExchangeBoard | RtFn::ExchangeAdapter => {
             "words that special modules exchange"
         }
-        RtFn::RingCounter => "the ring counter D8099",
         other => other.name(),
     };
     what.to_string()
