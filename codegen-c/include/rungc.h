@@ -412,6 +412,27 @@ static inline int32_t plc_sat_sub32(int32_t a, int32_t b)
     return (a > (INT32_MAX + b)) ? INT32_MAX : (a - b);
 }
 
+/* The lesser and the greater one. */
+static inline int16_t plc_min16(int16_t a, int16_t b)
+{
+    return (a < b) ? a : b;
+}
+
+static inline int16_t plc_max16(int16_t a, int16_t b)
+{
+    return (a > b) ? a : b;
+}
+
+static inline int32_t plc_min32(int32_t a, int32_t b)
+{
+    return (a < b) ? a : b;
+}
+
+static inline int32_t plc_max32(int32_t a, int32_t b)
+{
+    return (a > b) ? a : b;
+}
+
 /* The bits of a word or a pair, those that leave at the high end entering at the low end. */
 static inline int16_t plc_rotate16(int16_t value, int16_t places)
 {
@@ -442,11 +463,11 @@ static inline int16_t plc_swap16(int16_t value)
 /* Number of bits that are on. */
 static inline int32_t plc_ones32(int32_t value)
 {
-    int32_t ones = 0;
-    for (uint32_t bits = (uint32_t)value; bits != 0u; bits &= bits - 1u) {
-        ones++;
-    }
-    return ones;
+    uint32_t bits = (uint32_t)value;
+    bits -= (bits >> 1) & 0x55555555u;
+    bits = (bits & 0x33333333u) + ((bits >> 2) & 0x33333333u);
+    bits = (bits + (bits >> 4)) & 0x0F0F0F0Fu;
+    return (int32_t)((bits * 0x01010101u) >> 24);
 }
 
 static inline int16_t plc_ones16(int16_t value)
@@ -468,7 +489,8 @@ static inline int32_t plc_to_bcd32(int32_t value)
 
 static inline int16_t plc_to_bcd16(int16_t value)
 {
-    return plc_low(plc_to_bcd32(value));
+    const uint32_t n = (uint16_t)value;
+    return plc_int16(((n / 1000u) << 12) | ((n / 100u % 10u) << 8) | ((n / 10u % 10u) << 4) | (n % 10u));
 }
 
 /* The number of decimal digits of four bits each; one above 9 counts as what it is. */
@@ -483,7 +505,8 @@ static inline int32_t plc_from_bcd32(int32_t digits)
 
 static inline int16_t plc_from_bcd16(int16_t digits)
 {
-    return plc_low(plc_from_bcd32((uint16_t)digits));
+    const uint32_t bits = (uint16_t)digits;
+    return plc_int16(((bits >> 12) * 1000u) + (((bits >> 8) & 15u) * 100u) + (((bits >> 4) & 15u) * 10u) + (bits & 15u));
 }
 
 /* Returns true if no digit of four bits is above 9. */
@@ -517,11 +540,24 @@ static inline int32_t plc_root(int32_t value)
 /* Number of the highest bit that is on, counted from 0; 0 if none is. */
 static inline int32_t plc_highest_bit(int32_t value)
 {
-    int32_t place = 0;
-    for (uint32_t rest = (uint32_t)value >> 1; rest != 0u; rest >>= 1) {
-        place++;
+    uint32_t rest = (uint32_t)value;
+    unsigned place = 0;
+    for (unsigned step = 16u; step != 0u; step /= 2u) {
+        if ((rest >> step) != 0u) {
+            rest >>= step;
+            place += step;
+        }
     }
-    return place;
+    return (int32_t)place;
+}
+
+/* The segments of a display that show the low four bits as a digit: a in bit 0 to g in bit 6. */
+static inline int16_t plc_segments(int16_t digit)
+{
+    static const uint8_t segments[16] = {
+        0x3F, 0x06, 0x5B, 0x4F, 0x66, 0x6D, 0x7D, 0x27, 0x7F, 0x6F, 0x77, 0x7C, 0x39, 0x5E, 0x79, 0x71,
+    };
+    return segments[(uint16_t)digit & 15u];
 }
 
 /* ---- Floats --------------------------------------------------------------------------------------------------------- */

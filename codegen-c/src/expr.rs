@@ -75,6 +75,8 @@ fn bitwise(op: BinOp) -> Option<&'static str> {
         | BinOp::Rem
         | BinOp::SatAdd
         | BinOp::SatSub
+        | BinOp::Min
+        | BinOp::Max
         | BinOp::RotateLeft => None,
     }
 }
@@ -93,6 +95,8 @@ fn arithmetic(op: BinOp) -> Option<&'static str> {
         | BinOp::Xor
         | BinOp::SatAdd
         | BinOp::SatSub
+        | BinOp::Min
+        | BinOp::Max
         | BinOp::RotateLeft => None,
     }
 }
@@ -108,6 +112,8 @@ fn function(op: BinOp) -> &'static str {
         BinOp::Rem => "plc_rem",
         BinOp::SatAdd => "plc_sat_add",
         BinOp::SatSub => "plc_sat_sub",
+        BinOp::Min => "plc_min",
+        BinOp::Max => "plc_max",
         BinOp::And => "plc_and",
         BinOp::Or => "plc_or",
         BinOp::Xor => "plc_xor",

@@ -295,6 +295,8 @@ impl Generator<'_> {
             BinOp::Mul => call(operands(self), "wrapping_mul"),
             BinOp::SatAdd => call(operands(self), "saturating_add"),
             BinOp::SatSub => call(operands(self), "saturating_sub"),
+            BinOp::Min => call(operands(self), "min"),
+            BinOp::Max => call(operands(self), "max"),
             BinOp::MulHigh => {
                 let (a, b) = (self.typed(a), self.expr(b));
                 let mul_high = self.word_function("mul_high");

@@ -29,6 +29,8 @@ fn result(op: BinOp, (a0, a1): Bounds, (b0, b1): Bounds) -> Option<Bounds> {
     match op {
         BinOp::Add => Some((a0 + b0, a1 + b1)),
         BinOp::Sub => Some((a0 - b1, a1 - b0)),
+        BinOp::Min => Some((a0.min(b0), a1.min(b1))),
+        BinOp::Max => Some((a0.max(b0), a1.max(b1))),
         BinOp::Mul => {
             let ends = [a0 * b0, a0 * b1, a1 * b0, a1 * b1];
             Some((*ends.iter().min()?, *ends.iter().max()?))

@@ -68,6 +68,7 @@ fn function(op: UnOp, value: Value) -> Value {
         (UnOp::IsBcd, v) => Value::Bit(word::is_bcd32(int(v))),
         (UnOp::Root, v) => Value::I32(word::root(int(v))),
         (UnOp::HighestBit, v) => Value::I32(word::highest_bit(int(v))),
+        (UnOp::Segments, v) => Value::I16(word::segments(int(v) as i16)),
         (UnOp::ToFloat, v) => Value::F32(word::to_float(int(v))),
         (UnOp::Truncate, v) => Value::I32(word::truncate(float(v))),
         (UnOp::IsFinite, v) => Value::Bit(word::is_finite(float(v))),

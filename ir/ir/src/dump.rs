@@ -464,6 +464,8 @@ fn bin_text(op: BinOp) -> &'static str {
         BinOp::Xor => "xor",
         BinOp::SatAdd => "+sat",
         BinOp::SatSub => "-sat",
+        BinOp::Min => "min",
+        BinOp::Max => "max",
         BinOp::RotateLeft => "rotl",
     }
 }

@@ -53,6 +53,7 @@ mod special;
 mod stl;
 mod system;
 mod times;
+mod values;
 mod watchdog;
 mod words;
 
@@ -368,6 +369,7 @@ impl<'a> Lowerer<'a> {
             Lower::Exclusive(function) => self.exclusive_call(function),
             Lower::HighSpeed(comparison) => self.high_speed_compare(comparison),
             Lower::Density => self.density(),
+            Lower::Values(op) => self.inline(|this| this.values(op)),
             Lower::Move => self.inline(|this| this.move_value(false)),
             Lower::MoveNot => self.inline(|this| this.move_value(true)),
             Lower::MoveCount => self.inline(Self::move_count),

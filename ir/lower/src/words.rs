@@ -1,10 +1,9 @@
-//! Instructions on words and floats that the runtime has functions for and that are inline code: moves, conversions,
-//! rotations, arithmetic of floats. The runtime is called only where operands or flags ask for more than the code here
-//! does.
+//! Instructions on floats that the runtime has functions for and that are inline code. The runtime is called only where
+//! operands or flags ask for more than the code here does.
 
 use super::Lowerer;
 use super::operand::{Guards, Target};
-use rungc_ir::node::{Access, Action, BinOp, Branch, Expr, ExprId, FloatOp, Stmt, Ty, UnOp};
+use rungc_ir::node::{Access, Action, Branch, Expr, ExprId, FloatOp, Stmt, Ty, UnOp};
 use rungc_rt::special::{M_BORROW, M_CARRY, M_ZERO};
 use rungc_rt::{CmpOp, RtFn};
 use rungc_syntax::{DeviceClass, Instr, OperandKind};
@@ -20,18 +19,9 @@ const DOMAIN: u16 = rungc_rt::Fault::DOMAIN.0;
 )]
 pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     let kind = |i: usize| instr.operands.get(i).map(|operand| &operand.kind);
-    let constant = |i| kind(i).and_then(constant);
     let floats = |range: std::ops::Range<usize>| range.map(kind).all(|o| o.is_some_and(is_float));
     let register = |i| kind(i).is_some_and(is_register);
     match function {
-        RtFn::Swap | RtFn::XchWords | RtFn::Alt | RtFn::Bcd | RtFn::Bin | RtFn::BinUnchecked => {
-            true
-        }
-        RtFn::Sum | RtFn::Sqr => true,
-        // With M8160 an operand exchanged with itself has its bytes exchanged.
-        RtFn::Xch => kind(0) != kind(1),
-        RtFn::Bon => constant(2).is_some_and(|bit| (0..16).contains(&bit)),
-        RtFn::Ror | RtFn::Rol => constant(1).is_some_and(|places| (1..=16).contains(&places)),
         RtFn::Flt => register(1),
         RtFn::Int => floats(0..1),
         RtFn::Emov => floats(0..1) && register(1),
@@ -71,17 +61,6 @@ impl Lowerer<'_> {
             return false;
         }
         match function {
-            RtFn::Swap => self.driven(|this| this.change_value(UnOp::SwapBytes)),
-            RtFn::Xch | RtFn::XchWords => self.driven(Self::exchange),
-            RtFn::Alt => self.driven(Self::alternate),
-            RtFn::Bcd => self.driven(Self::pack_digits),
-            RtFn::Bin => self.driven(|this| this.unpack_digits(true)),
-            RtFn::BinUnchecked => self.driven(|this| this.unpack_digits(false)),
-            RtFn::Sum => self.driven(Self::count_ones),
-            RtFn::Bon => self.driven(Self::test_bit),
-            RtFn::Ror => self.driven(|this| this.rotate(true)),
-            RtFn::Rol => self.driven(|this| this.rotate(false)),
-            RtFn::Sqr => self.driven(Self::square_root),
             RtFn::Flt => self.driven(Self::float_of_integer),
             RtFn::Int => self.driven(Self::integer_of_float),
             RtFn::Emov => self.driven(Self::move_float),
@@ -116,189 +95,6 @@ impl Lowerer<'_> {
             then,
             otherwise: vec![Stmt::Do(Action::Fault { code, step })],
         }));
-    }
-
-    fn change_value(&mut self, op: UnOp) {
-        let mut guards = Guards::default();
-        let value = self.source(0, &mut guards);
-        let target = self.result(0, &mut guards);
-        let value = self.add(Expr::Un(op, value));
-        self.guarded(guards, |this| this.store(target, value));
-    }
-
-    /// XCH: both values are read before one is written.
-    fn exchange(&mut self) {
-        let mut guards = Guards::default();
-        let values = [0, 1].map(|i| self.source(i, &mut guards));
-        let targets = [0, 1].map(|i| self.result(i, &mut guards));
-        self.guarded(guards, |this| {
-            let [a, b] = values.map(|value| this.settled(value));
-            this.store(targets[0], b);
-            this.store(targets[1], a);
-        });
-    }
-
-    /// ALT.
-    fn alternate(&mut self) {
-        let mut guards = Guards::default();
-        let Some(operand) = self.operand(0) else {
-            return;
-        };
-        let operand = operand.clone();
-        let state = self.bit(&operand, &mut guards);
-        let wide = self.wide();
-        let Some(target) = self.bit_target(&operand, 1, wide, &mut guards) else {
-            return;
-        };
-        let inverted = self.not(state);
-        self.guarded(guards, |this| this.store_bit(target, 0, inverted));
-    }
-
-    /// BCD: a value that has more digits than the form faults.
-    fn pack_digits(&mut self) {
-        let wide = self.wide();
-        let mut guards = Guards::default();
-        let value = self.source(0, &mut guards);
-        let target = self.result(1, &mut guards);
-        self.guarded(guards, |this| {
-            let value = this.settled(value);
-            let (least, most) = (
-                this.int(0, wide),
-                this.int(if wide { 99_999_999 } else { 9999 }, wide),
-            );
-            let not_below = this.add(Expr::Cmp(CmpOp::Ge, value, least));
-            let not_above = this.add(Expr::Cmp(CmpOp::Le, value, most));
-            let fits = this.and(not_below, not_above);
-            this.checked(fits, this.model.value_error, |this| {
-                let digits = this.add(Expr::Un(UnOp::ToBcd, value));
-                this.store(target, digits);
-            });
-        });
-    }
-
-    /// BIN: where it is checked, a digit above 9 faults.
-    fn unpack_digits(&mut self, checked: bool) {
-        let mut guards = Guards::default();
-        let value = self.source(0, &mut guards);
-        let target = self.result(1, &mut guards);
-        self.guarded(guards, |this| {
-            let value = this.settled(value);
-            let number = this.add(Expr::Un(UnOp::FromBcd, value));
-            if !checked {
-                return this.store(target, number);
-            }
-            let fits = this.add(Expr::Un(UnOp::IsBcd, value));
-            this.checked(fits, this.model.value_error, |this| {
-                this.store(target, number);
-            });
-        });
-    }
-
-    /// SUM, and M8020 if there are none.
-    fn count_ones(&mut self) {
-        let wide = self.wide();
-        let mut guards = Guards::default();
-        let value = self.source(0, &mut guards);
-        let target = self.result(1, &mut guards);
-        self.guarded(guards, |this| {
-            let ones = this.add(Expr::Un(UnOp::CountOnes, value));
-            let ones = this.flagged(ones, |this, ones| {
-                let none = this.is_int(ones, 0, wide);
-                this.set_flag(M_ZERO, none);
-            });
-            this.store(target, ones);
-        });
-    }
-
-    /// The value, and what `set` does with it if something looks at a flag of arithmetic.
-    fn flagged(&mut self, value: ExprId, set: impl FnOnce(&mut Self, ExprId)) -> ExprId {
-        if !self.looks_at_flags() {
-            return value;
-        }
-        let value = self.settled(value);
-        set(self, value);
-        value
-    }
-
-    /// BON of one of the low 16 bits, which the program states.
-    fn test_bit(&mut self) {
-        let wide = self.wide();
-        let bit = self.operand(2).and_then(constant).unwrap_or(0);
-        let mut guards = Guards::default();
-        let value = self.source(0, &mut guards);
-        let Some(operand) = self.operand(1).cloned() else {
-            return;
-        };
-        let Some(target) = self.bit_target(&operand, 1, wide, &mut guards) else {
-            return;
-        };
-        let mask = self.int(1 << bit, wide);
-        let zero = self.int(0, wide);
-        let masked = self.add(Expr::Bin(BinOp::And, value, mask));
-        let on = self.add(Expr::Cmp(CmpOp::Ne, masked, zero));
-        self.guarded(guards, |this| this.store_bit(target, 0, on));
-    }
-
-    /// ROR and ROL by up to 16 places, as the program states; the bit that passed the end last is in the carry flag,
-    /// too.
-    fn rotate(&mut self, right: bool) {
-        let wide = self.wide();
-        let width = if wide { 32 } else { 16 };
-        let places = self.operand(1).and_then(constant).unwrap_or(0);
-        let mut guards = Guards::default();
-        let value = self.source(0, &mut guards);
-        let target = self.result(0, &mut guards);
-        let left = if right { width - places } else { places } % width;
-        let left = self.int(left, wide);
-        self.guarded(guards, |this| {
-            let rotated = this.add(Expr::Bin(BinOp::RotateLeft, value, left));
-            let rotated = this.flagged(rotated, |this, rotated| {
-                let zero = this.int(0, wide);
-                let last = if right {
-                    this.add(Expr::Cmp(CmpOp::Lt, rotated, zero))
-                } else {
-                    let one = this.int(1, wide);
-                    let lowest = this.add(Expr::Bin(BinOp::And, rotated, one));
-                    this.add(Expr::Cmp(CmpOp::Ne, lowest, zero))
-                };
-                this.set_flag(M_CARRY, last);
-            });
-            this.store(target, rotated);
-        });
-    }
-
-    /// SQR: a negative value faults. M8020 for 0, M8021 for a dropped fraction.
-    fn square_root(&mut self) {
-        let wide = self.wide();
-        let mut guards = Guards::default();
-        let value = self.source(0, &mut guards);
-        let target = self.result(1, &mut guards);
-        self.guarded(guards, |this| {
-            let value = this.settled(value);
-            let zero = this.int(0, wide);
-            let fits = this.add(Expr::Cmp(CmpOp::Ge, value, zero));
-            this.checked(fits, this.model.value_error, |this| {
-                let value = if wide {
-                    value
-                } else {
-                    this.add(Expr::Widen(value))
-                };
-                let root = this.add(Expr::Un(UnOp::Root, value));
-                let root = this.flagged(root, |this, root| {
-                    let none = this.is_int(root, 0, true);
-                    let square = this.add(Expr::Bin(BinOp::Mul, root, root));
-                    let dropped = this.add(Expr::Cmp(CmpOp::Ne, square, value));
-                    this.set_flag(M_ZERO, none);
-                    this.set_flag(M_BORROW, dropped);
-                });
-                let root = if wide {
-                    root
-                } else {
-                    this.add(Expr::Narrow(root))
-                };
-                this.store(target, root);
-            });
-        });
     }
 
     /// Operand `i` as a float: a constant is converted.

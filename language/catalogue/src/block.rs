@@ -1,7 +1,7 @@
 //! Blocks, limits, scaling and tables of FX3U, FNC 182–214 and 256–269.
 
 use super::row::*;
-use super::{Inst, Param, Repeat, Rule};
+use super::{Inst, Lower, Param, Repeat, Rule, ValueOp};
 use rungc_rt::RtFn;
 
 const BLOCK: &[Param] = &[
@@ -107,15 +107,15 @@ pub(super) const ROWS: &[Inst] = &[
     block("LIMIT", 256, "Limit")
         .repeat(Repeat::Same)
         .takes(RANGE)
-        .call(RtFn::Limit)
+        .lower(Lower::Values(ValueOp::Limit))
         .text("D = S3, held between S1 and S2. S1 above S2 is an error."),
     block("BAND", 257, "Dead band")
         .takes(RANGE)
-        .call(RtFn::Band)
+        .lower(Lower::Values(ValueOp::Band))
         .text("D = 0 while S3 lies between S1 and S2, else how far it lies outside."),
     block("ZONE", 258, "Zone offset")
         .takes(THREE)
-        .call(RtFn::Zone)
+        .lower(Lower::Values(ValueOp::Zone))
         .text("D = S3 + S1 if S3 is negative, S3 + S2 if it is positive, 0 if it is 0."),
     block("SCL", 259, "Scaling")
         .steps(7, 13)

@@ -1,7 +1,7 @@
 //! Data processing, FNC 40–49 and 140–144.
 
 use super::row::*;
-use super::{Classes, Inst, Lower, Param, Repeat, Rule};
+use super::{Classes, Inst, Lower, Param, Repeat, Rule, ValueOp};
 use rungc_models::ModelSet;
 use rungc_models::runs::is_counter32;
 use rungc_rt::RtFn;
@@ -163,7 +163,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_HM_FX1)
         .takes(&[src("S", VALUES), dst("D", RESULTS)])
         .flags(&["M8020"])
-        .call(RtFn::Sum)
+        .lower(Lower::Values(ValueOp::CountOnes))
         .text("D = how many bits of S are on. M8020 is on if none is."),
     data("BON", 44, "Test a bit")
         .repeat(Repeat::Same)
@@ -176,7 +176,7 @@ pub(super) const ROWS: &[Inst] = &[
                 .also_on(LIKE_FX3, DATA)
                 .rules(&[Rule::WideLimits(0, 31)]),
         ])
-        .call(RtFn::Bon)
+        .lower(Lower::Values(ValueOp::TestBit))
         .text("D = bit n of S, counted from 0."),
     data("MEAN", 45, "Mean")
         .on(NOT_FX1)
@@ -216,8 +216,8 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[on(HM).takes(ROOT_HM)])
         .flags(&["M8020", "M8021"])
         .errors(&[6706])
-        .call(RtFn::Sqr)
-        .lower_on(&[(HM, Lower::Call(RtFn::SqrClamped))])
+        .lower(Lower::Values(ValueOp::Root { clamps: false }))
+        .lower_on(&[(HM, Lower::Values(ValueOp::Root { clamps: true }))])
         .text(
             "D = the square root of S without its fraction. M8021 is on if there was one, M8020 if D is 0. A negative S is an error; \
              on HM it gives 0.",

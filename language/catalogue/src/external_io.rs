@@ -1,7 +1,7 @@
 //! Keys, displays and modules, FNC 70–79, 176, 177, 278 and 279.
 
 use super::row::*;
-use super::{Classes, Inst, Lower, Param, Repeat, Rule};
+use super::{Classes, Inst, Lower, Param, Repeat, Rule, ValueOp};
 use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::OperandKind;
@@ -160,7 +160,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(5, 5)
         .takes(&[src("S", VALUES), both("D", RESULTS)])
-        .call(RtFn::Segd)
+        .lower(Lower::Values(ValueOp::Segments))
         .text("Writes the segments a to g of the digit in the low four bits of S to the low eight bits of D."),
     io("SEGL", 74, "Seven-segment display")
         .on(INOVANCE_FX)

@@ -1,7 +1,7 @@
 //! Handy instructions, FNC 60–69 and 149, and those that save the index registers.
 
 use super::row::*;
-use super::{Classes, Inst, Param, Repeat, Rule};
+use super::{Classes, Inst, Lower, Param, Repeat, Rule, ValueOp};
 use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
@@ -133,7 +133,7 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[on(HM).forms(W16).takes(&[coil("D", COILS).changed().plain()])])
         .steps(3, 3)
         .takes(&[coil("D", RESULT_BITS).changed()])
-        .call(RtFn::Alt)
+        .lower(Lower::Values(ValueOp::Alternate))
         .text("Inverts D at each execution."),
     handy("RAMP", 67, "Ramp")
         .takes(&[

@@ -399,12 +399,64 @@ pub enum Lower {
     HighSpeed(Comparison),
     /// SPD: counts pulses of an input in windows of time.
     Density,
+    /// An operation on values, which is inline code whatever the operands are.
+    Values(ValueOp),
     /// A runtime function.
     Call(RtFn),
     /// A runtime function of which one instruction of a program runs at a time: while it is driven, others are not.
     Exclusive(RtFn),
     /// It cannot be compiled: an error names the instruction and this reason.
     Todo(&'static str),
+}
+
+/// An operation on values.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ValueOp {
+    /// SEGD: the segments of a digit.
+    Segments,
+    /// LIMIT: a value held between two others.
+    Limit,
+    /// BAND: how far a value lies outside a band.
+    Band,
+    /// ZONE: a value moved away from 0, by one distance below it and another above it.
+    Zone,
+    /// SWAP: the bytes of each word exchanged.
+    SwapBytes,
+    /// XCH: two values exchanged.
+    Exchange {
+        /// A value exchanged with itself has its bytes exchanged while M8160 is on.
+        bytes: bool,
+    },
+    /// ALT: a bit inverted.
+    Alternate,
+    /// BCD: the decimal digits of a value.
+    ToBcd {
+        /// A value that has more digits than fit is held at the largest that does, a negative one at 0; else they are
+        /// an error.
+        clamps: bool,
+    },
+    /// BIN: the number of decimal digits.
+    FromBcd {
+        /// A digit above 9 is an error; else it counts as what it is.
+        checks: bool,
+    },
+    /// SUM: the number of bits that are on.
+    CountOnes,
+    /// BON: one bit of a value.
+    TestBit,
+    /// ROR: the bits moved to the right, around the end.
+    RotateRight,
+    /// ROL: the bits moved to the left, around the end.
+    RotateLeft,
+    /// SQR: the integer square root.
+    Root {
+        /// A negative value counts as 0; else it is an error.
+        clamps: bool,
+    },
+    /// GRY: the Gray code of a number.
+    ToGray,
+    /// GBIN: the number of a Gray code.
+    FromGray,
 }
 
 /// A comparison at the count.

@@ -1,7 +1,7 @@
 //! Moving values.
 
 use super::row::*;
-use super::{Classes, Inst, Lower, Param, Repeat, Rule};
+use super::{Classes, Inst, Lower, Param, Repeat, Rule, ValueOp};
 use rungc_rt::RtFn;
 
 /// Block moves from M8024's side: either end is read or written.
@@ -125,24 +125,24 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[both("D1", RESULTS), both("D2", RESULTS)])
         .flags(&["M8160"])
         .errors(&[6706])
-        .call(RtFn::Xch)
-        .lower_on(&[(HM, Lower::Call(RtFn::XchWords))])
+        .lower(Lower::Values(ValueOp::Exchange { bytes: true }))
+        .lower_on(&[(HM, Lower::Values(ValueOp::Exchange { bytes: false }))])
         .text(
             "Exchanges D1 and D2 at each execution. With M8160 on and twice the same device it exchanges the bytes of each word \
              instead (not on HM).",
         ),
     convert("BCD", 18, "Binary to BCD")
         .errors(&[6707])
-        .call(RtFn::Bcd)
-        .lower_on(&[(HM, Lower::Call(RtFn::BcdClamped))])
+        .lower(Lower::Values(ValueOp::ToBcd { clamps: false }))
+        .lower_on(&[(HM, Lower::Values(ValueOp::ToBcd { clamps: true }))])
         .text(
             "Writes the decimal digits of S to D, four bits each. Values outside 0 to 9999 (32-bit: 99999999) are an error; on HM they \
              stay at the end of the range.",
         ),
     convert("BIN", 19, "BCD to binary")
         .errors(&[6707])
-        .call(RtFn::Bin)
-        .lower_on(&[(HM, Lower::Call(RtFn::BinUnchecked))])
+        .lower(Lower::Values(ValueOp::FromBcd { checks: true }))
+        .lower_on(&[(HM, Lower::Values(ValueOp::FromBcd { checks: false }))])
         .text("Reads the four-bit digits of S as a decimal number. A digit above 9 is an error; HM does not check."),
     row("SWAP", "Exchange bytes", "h1u-h2u-programming §4.3.10")
         .repeat(Repeat::Changes(0))
@@ -151,7 +151,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(ALL_FORMS)
         .steps(3, 5)
         .takes(&[both("S", RESULTS)])
-        .call(RtFn::Swap)
+        .lower(Lower::Values(ValueOp::SwapBytes))
         .text("Exchanges the bytes of S at each execution; the 32-bit form does so in each of the two words."),
     row("PRUN", "Octal move", "h1u-h2u-programming §4.3.9")
         .fnc(81)
@@ -174,7 +174,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_HM_FX1)
         .takes(GRAY)
         .errors(&[6706])
-        .call(RtFn::Gry)
+        .lower(Lower::Values(ValueOp::ToGray))
         .text("D = S in Gray code. A negative S is an error."),
     row("GBIN", "Gray code to binary", "h1u-h2u-programming §4.3.13")
         .fnc(171)
@@ -183,6 +183,6 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_HM_FX1)
         .takes(GRAY)
         .errors(&[6706])
-        .call(RtFn::Gbin)
+        .lower(Lower::Values(ValueOp::FromGray))
         .text("D = the number whose Gray code is S. A negative S is an error."),
 ];

@@ -1,7 +1,7 @@
 //! Rotating, shifting and queues, FNC 30–39 and 212–214.
 
 use super::row::*;
-use super::{Inst, Lower, Param, Repeat, Rule};
+use super::{Inst, Lower, Param, Repeat, Rule, ValueOp};
 use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 
@@ -116,7 +116,7 @@ const DEQUEUE_HM: &[Param] = &[
 ];
 const DEQUEUE_FX: &[Param] = &dequeue(512, &[]);
 
-const fn rotate(name: &'static str, fnc: u16, title: &'static str, function: RtFn) -> Inst {
+const fn rotate(name: &'static str, fnc: u16, title: &'static str, lower: Lower) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.4")
         .fnc(fnc)
         .on(NOT_FX1)
@@ -125,7 +125,7 @@ const fn rotate(name: &'static str, fnc: u16, title: &'static str, function: RtF
         .takes(ROTATE)
         .flags(&["M8022"])
         .errors(&[6706])
-        .call(function)
+        .lower(lower)
 }
 
 const fn shift(name: &'static str, fnc: u16, title: &'static str, function: RtFn) -> Inst {
@@ -142,20 +142,20 @@ const fn queue(name: &'static str, fnc: u16, title: &'static str, function: RtFn
 }
 
 pub(super) const ROWS: &[Inst] = &[
-    rotate("ROR", 30, "Rotate right", RtFn::Ror)
+    rotate("ROR", 30, "Rotate right", Lower::Values(ValueOp::RotateRight))
         .repeat(Repeat::Changes(0))
         .variants(&[on(HM).takes(ROTATE_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])
         .text("Rotates D right by n bits. The bit that left last is also in M8022."),
-    rotate("ROL", 31, "Rotate left", RtFn::Rol)
+    rotate("ROL", 31, "Rotate left", Lower::Values(ValueOp::RotateLeft))
         .repeat(Repeat::Changes(0))
         .variants(&[on(HM).takes(ROTATE_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])
         .text("Rotates D left by n bits. The bit that left last is also in M8022."),
-    rotate("RCR", 32, "Rotate right with carry", RtFn::Rcr)
+    rotate("RCR", 32, "Rotate right with carry", Lower::Call(RtFn::Rcr))
         .repeat(Repeat::Changes(0))
         .on(NOT_SMALL_FX)
         .variants(&[on(HM).takes(ROTATE_CARRY_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])
         .text("Rotates the ring of D and M8022 right by n bits: bit 0 goes to M8022, M8022 to the top."),
-    rotate("RCL", 33, "Rotate left with carry", RtFn::Rcl)
+    rotate("RCL", 33, "Rotate left with carry", Lower::Call(RtFn::Rcl))
         .repeat(Repeat::Changes(0))
         .on(NOT_SMALL_FX)
         .variants(&[on(HM).takes(ROTATE_CARRY_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])

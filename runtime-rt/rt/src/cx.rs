@@ -565,21 +565,10 @@ impl<'a> Cx<'a> {
 
     /// Operand `i` without its sign: the low 16 bits, or all 32.
     pub fn read_unsigned(&self, i: usize) -> Result<u32, Fault> {
-        self.read(i).map(|v| self.unsigned(v))
-    }
-
-    /// A value of the form's width without its sign.
-    pub fn unsigned(&self, value: i32) -> u32 {
-        if self.site.wide {
-            value as u32
-        } else {
-            u32::from(value as u16)
-        }
-    }
-
-    /// Returns true if operands `a` and `b` denote the same devices.
-    pub fn same(&self, a: usize, b: usize) -> bool {
-        matches!((self.op(a), self.op(b)), (Ok(a), Ok(b)) if a.within(0) == b.within(0))
+        self.read(i).map(|value| match self.site.wide {
+            true => value as u32,
+            false => u32::from(value as u16),
+        })
     }
 
     /// Returns true if operand `b` starts after operand `a` in the same class, so that a block copied from `a` to `b`

@@ -141,15 +141,6 @@ registry! {
     Bmov = move_::bmov(s, d, n);
     BmovForward = move_::bmov_forward(s, d, n);
     Fmov = move_::fmov(s, d, n);
-    Xch = move_::xch(d1, d2);
-    XchWords = move_::xch_words(d1, d2);
-    Swap = move_::swap(s);
-    Bcd = move_::bcd(s, d);
-    BcdClamped = move_::bcd_clamped(s, d);
-    Bin = move_::bin(s, d);
-    BinUnchecked = move_::bin_unchecked(s, d);
-    Ror = rotate::ror(d, n);
-    Rol = rotate::rol(d, n);
     Rcr = rotate::rcr(d, n);
     Rcl = rotate::rcl(d, n);
     Sftr = rotate::sftr(s, d, n1, n2);
@@ -167,14 +158,10 @@ registry! {
     Deco = data::deco(s, d, n);
     Enco = data::enco(s, d, n);
     EncoZero = data::enco_zero(s, d, n);
-    Sum = data::sum(s, d);
-    Bon = data::bon(s, d, n);
     Mean = data::mean(s, d, n);
     MeanSum = data::mean_sum(s, d, n);
     Ans = data::ans(s, m, d) [state, always];
     Anr = data::anr();
-    Sqr = data::sqr(s, d);
-    SqrClamped = data::sqr_clamped(s, d);
     Flt = float::flt(s, d);
     Ecmp = float::ecmp(s1, s2, d);
     Ezcp = float::ezcp(s1, s2, s, d);
@@ -254,8 +241,6 @@ registry! {
     ClockRefresh = clock::clock_refresh() [state, always, hal];
     ClockRefreshShort = clock::clock_refresh_short() [state, always, hal];
     Hour = clock::hour(s, d1, d2) [state, always];
-    Gry = gray::gry(s, d);
-    Gbin = gray::gbin(s, d);
     Wsum = block::wsum(s, d, n);
     Wtob = block::wtob(s, d, n);
     Btow = block::btow(s, d, n);
@@ -276,9 +261,6 @@ registry! {
     Fins = block::fins(s, d, n);
     Zpush = block::zpush(d);
     Zpop = block::zpop(d);
-    Limit = scale::limit(s1, s2, s3, d);
-    Band = scale::band(s1, s2, s3, d);
-    Zone = scale::zone(s1, s2, s3, d);
     Scl = scale::scl(s1, s2, d);
     Scl2 = scale::scl2(s1, s2, d);
     Estr = text::estr(s1, s2, d);
@@ -301,7 +283,6 @@ registry! {
     Incd = handy::incd(s1, s2, d, n) [state, always];
     Ttmr = handy::ttmr(d, n) [state, always];
     Stmr = handy::stmr(s, m, d) [state, always];
-    Alt = handy::alt(d);
     Ramp = handy::ramp(s1, s2, d, n) [state, always];
     Rotc = handy::rotc(s, m1, m2, d) [state, always];
     Sort = handy::sort(s, m1, m2, d, n) [state, always];
@@ -353,7 +334,6 @@ registry! {
     Tky = keys::tky(s, d1, d2) [state, always];
     Hky = keys::hky(s, d1, d2, d3) [state, always];
     Dsw = keys::dsw(s, d1, d2, n) [state, always];
-    Segd = display::segd(s, d);
     Segl = display::segl(s, d, n) [state, always];
     Arws = display::arws(s, d1, d2, n) [state, always];
     Asc = display::asc(s, d);

@@ -3,7 +3,7 @@
 use crate::registry::{Needs, RtFn};
 use crate::special::{
     D_RANDOM, M_BLOCK_COMPARE, M_BMOV_REVERSE, M_BORROW, M_BYTE_MODE, M_CARRY, M_MEAN_SUM,
-    M_SMOV_HEX, M_TEXT_OPEN, M_XCH_BYTES, M_ZERO, Register, Relay,
+    M_SMOV_HEX, M_TEXT_OPEN, M_ZERO, Register, Relay,
 };
 
 /// Special devices that a function uses beside its operands. What an operation error writes is not among them.
@@ -55,23 +55,16 @@ impl RtFn {
             RtFn::From | RtFn::FromStated | RtFn::FromHost | RtFn::FromRemote | RtFn::Rbfm => {
                 Some(&[2])
             }
-            RtFn::Segd | RtFn::Segl | RtFn::Pr | RtFn::PrSignalsOff => Some(&[1]),
+            RtFn::Segl | RtFn::Pr | RtFn::PrSignalsOff => Some(&[1]),
             RtFn::Mtr | RtFn::Dsw | RtFn::Tky => Some(&[1, 2]),
             RtFn::Hky => Some(&[1, 2, 3]),
             RtFn::Pid | RtFn::PidTuning | RtFn::PidChecked | RtFn::PidHm => Some(&[2, 3]),
             RtFn::Smov => Some(&[3]),
-            RtFn::BmovForward | RtFn::Fmov | RtFn::Bcd | RtFn::Bin | RtFn::Sum | RtFn::Mean => {
-                Some(&[1])
-            }
-            RtFn::BcdClamped
-            | RtFn::BinUnchecked
-            | RtFn::Deco
-            | RtFn::Enco
-            | RtFn::EncoZero
-            | RtFn::Bon => Some(&[1]),
+            RtFn::BmovForward | RtFn::Fmov | RtFn::Mean => Some(&[1]),
+            RtFn::Deco | RtFn::Enco | RtFn::EncoZero => Some(&[1]),
             RtFn::Absd | RtFn::Ramp | RtFn::Ser | RtFn::Tadd | RtFn::Tsub => Some(&[2]),
             RtFn::Twr | RtFn::TwrShort => Some(&[]),
-            RtFn::Flt | RtFn::Int | RtFn::Sqr | RtFn::SqrClamped => Some(&[1]),
+            RtFn::Flt | RtFn::Int => Some(&[1]),
             RtFn::Eadd | RtFn::Esub | RtFn::Emul | RtFn::Ediv => Some(&[2]),
             RtFn::Sftr | RtFn::Sftl | RtFn::Wsfr | RtFn::Wsfl | RtFn::Sfwr | RtFn::SfwrHm => {
                 Some(&[1])
@@ -85,7 +78,6 @@ impl RtFn {
         match self {
             RtFn::Smov => &[M_SMOV_HEX],
             RtFn::Bmov => &[M_BMOV_REVERSE],
-            RtFn::Xch => &[M_XCH_BYTES],
             RtFn::Rcr | RtFn::Rcl => &[M_CARRY],
             RtFn::MeanSum => &[M_MEAN_SUM],
             RtFn::Asci | RtFn::Hex | RtFn::Ccd | RtFn::Crc | RtFn::Asc => &[M_BYTE_MODE],
@@ -97,13 +89,12 @@ impl RtFn {
     /// The relays that say something of its result.
     fn flags(self) -> &'static [Relay] {
         match self {
-            RtFn::Ror | RtFn::Rol | RtFn::Rcr | RtFn::Rcl | RtFn::Sfr | RtFn::Sfl => &[M_CARRY],
+            RtFn::Rcr | RtFn::Rcl | RtFn::Sfr | RtFn::Sfl => &[M_CARRY],
             RtFn::Sfwr | RtFn::SfwrHm | RtFn::SfrdHm => &[M_CARRY],
-            RtFn::Sqr | RtFn::SqrClamped => &[M_ZERO, M_BORROW],
             RtFn::Eadd | RtFn::Esub | RtFn::Emul | RtFn::Ediv | RtFn::Eval | RtFn::Int => {
                 &[M_ZERO, M_BORROW, M_CARRY]
             }
-            RtFn::Esqr | RtFn::Sum | RtFn::Sfrd | RtFn::Pop => &[M_ZERO],
+            RtFn::Esqr | RtFn::Sfrd | RtFn::Pop => &[M_ZERO],
             RtFn::Tadd => &[M_ZERO, M_CARRY],
             RtFn::Tsub => &[M_ZERO, M_BORROW],
             RtFn::BkcmpEq

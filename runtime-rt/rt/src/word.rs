@@ -126,6 +126,17 @@ pub const fn highest_bit(value: i32) -> i32 {
     (31 - (value | 1).leading_zeros()) as i32
 }
 
+/// Segments a (bit 0) to g (bit 6) of the hexadecimal digits.
+const SEGMENTS: [i16; 16] = [
+    0x3f, 0x06, 0x5b, 0x4f, 0x66, 0x6d, 0x7d, 0x27, 0x7f, 0x6f, 0x77, 0x7c, 0x39, 0x5e, 0x79, 0x71,
+];
+
+/// The segments of a display that show the low four bits as a digit, segment a in bit 0 (SEGD,
+/// h1u-h2u-programming §4.3.8).
+pub const fn segments(digit: i16) -> i16 {
+    SEGMENTS[(digit & 15) as usize]
+}
+
 /// The square root of a float that is not below 0, correctly rounded (ESQR).
 pub fn square_root(value: f32) -> f32 {
     libm::sqrtf(value)

@@ -81,7 +81,6 @@ const PAIRS: &[(&str, &str)] = &[
     ("DFMOV D0 D2 K9", "DFMOV D0 D2Z7 K9"),
     ("DFMOV D3 D4 K17", "DFMOV D3 D4Z7 K17"),
     ("MEAN D0 D9 K8", "MEAN D0Z7 D9 K8"),
-    ("ROR D0 K3", "ROR D0 K3Z7"),
 ];
 
 /// Devices of each class that are set and compared.

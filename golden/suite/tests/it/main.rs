@@ -34,6 +34,7 @@ mod scan_time;
 mod shape;
 mod snapshots;
 mod suite;
+mod values;
 mod verify;
 mod verify_faults;
 mod warnings;

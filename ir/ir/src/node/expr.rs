@@ -142,7 +142,11 @@ pub fn type_of(exprs: &TiSlice<ExprId, Expr>, temps: &TiSlice<TempId, Ty>, id: E
         | Expr::Cmp(..)
         | Expr::Flag(_)
         | Expr::InRange { .. } => Ty::Bit,
-        Expr::I16(_) | Expr::Narrow(_) | Expr::HighWord(_) | Expr::BitToInt(_) => Ty::I16,
+        Expr::I16(_)
+        | Expr::Narrow(_)
+        | Expr::HighWord(_)
+        | Expr::BitToInt(_)
+        | Expr::Un(UnOp::Segments, _) => Ty::I16,
         Expr::I32(_)
         | Expr::Widen(_)
         | Expr::Cell(_)

@@ -27,6 +27,10 @@ pub enum BinOp {
     SatAdd,
     /// Difference, held at the ends of the type's range.
     SatSub,
+    /// The lesser one.
+    Min,
+    /// The greater one.
+    Max,
     /// The bits of the first operand, those that leave at the high end entering at the low end, by as many places as
     /// the second one says, modulo the type's width.
     RotateLeft,
@@ -45,6 +49,8 @@ impl BinOp {
             | BinOp::Mul
             | BinOp::Div
             | BinOp::Rem
+            | BinOp::Min
+            | BinOp::Max
             | BinOp::And
             | BinOp::Or
             | BinOp::Xor => self.of_i32(a.into(), b.into()).map(|wide| wide as i16),
@@ -66,6 +72,8 @@ impl BinOp {
             BinOp::Xor => a ^ b,
             BinOp::SatAdd => a.saturating_add(b),
             BinOp::SatSub => a.saturating_sub(b),
+            BinOp::Min => a.min(b),
+            BinOp::Max => a.max(b),
             BinOp::RotateLeft => a.rotate_left(b as u32 % 32),
         })
     }
@@ -89,6 +97,8 @@ pub enum UnOp {
     Root,
     /// `I32`: which is the highest bit that is on of an `I32`, counted from 0; one must be known to be on.
     HighestBit,
+    /// The segments of a display that show the low four bits of an `I16` as a digit, segment a in bit 0 to g in bit 6.
+    Segments,
     /// `I32` to the nearest `F32`.
     ToFloat,
     /// `F32` to the low 32 bits of its integer part (`I32`), which is held at the ends of 64 bits.
@@ -118,6 +128,7 @@ impl UnOp {
             UnOp::IsBcd => "is_bcd32",
             UnOp::Root => "root",
             UnOp::HighestBit => "highest_bit",
+            UnOp::Segments => "segments",
             UnOp::ToFloat => "to_float",
             UnOp::Truncate => "truncate",
             UnOp::IsFinite => "is_finite",
@@ -132,6 +143,7 @@ impl UnOp {
             UnOp::SwapBytes | UnOp::CountOnes | UnOp::ToBcd | UnOp::FromBcd | UnOp::IsBcd => {
                 matches!(ty, Ty::I16 | Ty::I32)
             }
+            UnOp::Segments => matches!(ty, Ty::I16),
             UnOp::Root | UnOp::HighestBit | UnOp::ToFloat => matches!(ty, Ty::I32),
             UnOp::Truncate | UnOp::IsFinite | UnOp::Negate | UnOp::SquareRoot => {
                 matches!(ty, Ty::F32)

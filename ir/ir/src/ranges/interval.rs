@@ -100,6 +100,8 @@ impl Interval {
             BinOp::Sub => Interval::wrapped(a0 - b1, a1 - b0, all),
             BinOp::SatAdd => clamped(a0 + b0, a1 + b1),
             BinOp::SatSub => clamped(a0 - b1, a1 - b0),
+            BinOp::Min => Interval::wrapped(a0.min(b0), a1.min(b1), all),
+            BinOp::Max => Interval::wrapped(a0.max(b0), a1.max(b1), all),
             BinOp::Mul => corners(|a, b| a * b),
             BinOp::Div if b0 > 0 => corners(|a, b| a / b),
             BinOp::Rem if b0 > 0 => {
@@ -180,6 +182,8 @@ mod tests {
             BinOp::Xor,
             BinOp::SatAdd,
             BinOp::SatSub,
+            BinOp::Min,
+            BinOp::Max,
         ];
         let mut intervals = Vec::new();
         for base in [-32768, -9, -3, 0, 2, 7, 32763] {

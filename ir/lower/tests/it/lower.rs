@@ -214,6 +214,18 @@ fn conversions_and_floats_are_inline() {
     ));
 }
 
+#[test]
+fn operations_on_values() {
+    insta::assert_snapshot!(both(
+        &on(ModelId::Fx3u),
+        "LD X0\nSEGD D0 K2Y0\nLIMIT K5 K90 D1 D2\nDLIMIT D4 D6 D8 D10\nBAND K-3 K3 D12 D13\nZONE K-3 K3 D14Z0 D15\nEND\n"
+    ));
+    insta::assert_snapshot!(both(
+        &on(ModelId::Fx3u),
+        "LD X0\nROR D0 D1\nBON D2 M0 D3\nXCH D4 D4\nGBIN D5 D6\nLD X1\nOUT M8160\nEND\n"
+    ));
+}
+
 /// Returns true if a module calls the runtime.
 fn has_call(module: &Module) -> bool {
     let mut found = false;
@@ -233,9 +245,10 @@ fn flags_and_operands_call_the_runtime() {
     assert!(calls("LD X0\nDEADD D0 D2 D4\nLD M8022\nOUT Y0\nEND\n"));
     assert!(!calls("LD X0\nDEADD D0 D2 D4\nLD M8020\nOUT Y0\nEND\n"));
     assert!(!calls("LD X0\nROR D0 K4\nLD M8022\nOUT Y0\nEND\n"));
-    assert!(calls("LD X0\nROR D0 D1\nEND\n"));
+    assert!(calls("LD X0\nRCR D0 D1\nEND\n"));
+    assert!(!calls("LD X0\nROR D0 D1\nEND\n"));
     assert!(!calls("LD X0\nXCH D0 D1\nEND\n"));
-    assert!(calls("LD X0\nXCH D0 D0\nEND\n"));
+    assert!(!calls("LD X0\nXCH D0 D0\nLD X1\nOUT M8160\nEND\n"));
 }
 
 #[test]

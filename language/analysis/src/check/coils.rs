@@ -160,6 +160,7 @@ fn moves(code: &Code, i: usize) -> bool {
 fn replaces(code: &Code, i: usize) -> bool {
     match code.lower(i) {
         Some(Lower::Call(function)) => function.needs() == Needs::default(),
+        Some(Lower::Values(_)) => true,
         _ => moves(code, i),
     }
 }

@@ -4,7 +4,7 @@ use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::operand::OperandKind;
 use crate::plc::Class;
-use crate::special::{M_BORROW, M_MEAN_SUM, M_ZERO};
+use crate::special::M_MEAN_SUM;
 
 /// ZRST D1 D2 (FNC 40): clears the devices D1…D2; if D2 lies below D1 only D1.
 pub fn zrst(cx: &mut Cx) -> Done {
@@ -88,21 +88,6 @@ fn highest_of(cx: &Cx, n: i32) -> Result<Option<i16>, Fault> {
     Ok(highest)
 }
 
-/// SUM S D (FNC 43): the number of one-bits of S goes to D; M8020 is on if there are none.
-pub fn sum(cx: &mut Cx) -> Done {
-    let ones = cx.read_unsigned(0)?.count_ones();
-    cx.write(1, ones as i32)?;
-    cx.set_special(M_ZERO, ones == 0);
-    Ok(())
-}
-
-/// BON S D n (FNC 44): D takes bit n of S.
-pub fn bon(cx: &mut Cx) -> Done {
-    let n = cx.count(2, 0..=cx.width() as i32 - 1)?;
-    let on = cx.read_unsigned(0)? >> n & 1 == 1;
-    cx.set_bit(1, 0, on)
-}
-
 /// Sum of the `n` elements from operand 0 on; at most 64 or 16 bits each, so 64 bits hold it.
 pub(super) fn sum_of(cx: &Cx, n: i32) -> Result<i64, Fault> {
     (0..n).try_fold(0i64, |sum, k| Ok(sum + i64::from(cx.elem(0, k)?)))
@@ -168,31 +153,10 @@ pub fn anr(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// Writes the root of a number, its fraction dropped, and the flags: M8020 for 0, M8021 for a dropped fraction.
-fn root(cx: &mut Cx, value: u32) -> Done {
-    let root = value.isqrt();
-    cx.write(1, root as i32)?;
-    cx.set_special(M_ZERO, root == 0);
-    cx.set_special(M_BORROW, root * root != value);
-    Ok(())
-}
-
-/// SQR S D (FNC 48): square root; a negative S is an error.
-pub fn sqr(cx: &mut Cx) -> Done {
-    let value = cx.count(0, 0..=i32::MAX)?;
-    root(cx, value as u32)
-}
-
-/// SQR of HM: the root of a negative number is 0.
-pub fn sqr_clamped(cx: &mut Cx) -> Done {
-    let value = cx.read(0)?.max(0);
-    root(cx, value as u32)
-}
-
 #[cfg(test)]
 mod tests {
     use crate::double::{Double, reg, relay};
-    use crate::{Class, Fault, Plc, RtFn, State, d, k, kn};
+    use crate::{Class, Fault, Plc, RtFn, State, d, k};
 
     #[test]
     fn zrst_clears_a_run() {
@@ -261,35 +225,6 @@ mod tests {
     }
 
     #[test]
-    fn sum_counts_the_bits_of_the_form() {
-        let mut plc = Double::new().with_d(0, &[-1, -1]);
-        plc.call(RtFn::Sum, &[reg(0), reg(2)]).unwrap();
-        assert_eq!(plc.d(2, 1), [16]);
-        let mut plc = Double::wide().with_d(0, &[-1, -1, 5, 5]);
-        plc.call(RtFn::Sum, &[reg(0), reg(2)]).unwrap();
-        assert_eq!(
-            (plc.d(2, 2), plc.bit(Class::M, 8020)),
-            ([32, 0].to_vec(), Some(false))
-        );
-        plc.call(RtFn::Sum, &[kn(8, Class::M, 0), reg(2)]).unwrap();
-        assert_eq!(
-            (plc.d(2, 2), plc.bit(Class::M, 8020)),
-            ([0, 0].to_vec(), Some(true))
-        );
-    }
-
-    #[test]
-    fn bon_tests_a_bit() {
-        let mut plc = Double::new().with_d(0, &[-32768]);
-        plc.call(RtFn::Bon, &[reg(0), relay(0), k(15)]).unwrap();
-        assert_eq!(plc.m(0, 1), "1");
-        assert_eq!(
-            plc.call(RtFn::Bon, &[reg(0), relay(0), k(16)]),
-            Err(Fault::VALUE)
-        );
-    }
-
-    #[test]
     fn means_drop_the_fraction_towards_zero() {
         let mut plc = Double::new().with_d(0, &[-5, -6, 30000, 30000, 30000, 30000]);
         plc.call(RtFn::Mean, &[reg(0), reg(10), k(2)]).unwrap();
@@ -343,27 +278,5 @@ mod tests {
         plc.call(RtFn::Anr, &[]).unwrap();
         plc.call(RtFn::Anr, &[]).unwrap();
         assert_eq!(on(&plc), [true, false, false]);
-    }
-
-    #[test]
-    fn roots_of_whole_numbers() {
-        let flags = |plc: &Double| {
-            (
-                plc.bit(Class::M, 8020).unwrap(),
-                plc.bit(Class::M, 8021).unwrap(),
-            )
-        };
-        let mut plc = Double::wide();
-        for value in [0, 1, 3, 4, 99, 100, i32::MAX] {
-            plc.set_dd(0, value);
-            plc.call(RtFn::Sqr, &[reg(0), reg(2)]).unwrap();
-            let root = plc.dd(2);
-            assert!(root * root <= value && i64::from(root + 1).pow(2) > value.into());
-            assert_eq!(flags(&plc), (value == 0, root * root != value));
-        }
-        assert_eq!(plc.call(RtFn::Sqr, &[k(-4), reg(2)]), Err(Fault::VALUE));
-        assert_eq!(plc.dd(2), 46340);
-        plc.call(RtFn::SqrClamped, &[k(-4), reg(2)]).unwrap();
-        assert_eq!(plc.dd(2), 0);
     }
 }

@@ -22,11 +22,6 @@ pub fn is_bcd(bcd: u32) -> bool {
     (0..32).step_by(4).all(|shift| bcd >> shift & 15 <= 9)
 }
 
-/// The number whose decimal digits `bcd` packs; `None` if it has a digit above 9.
-pub fn from_bcd(bcd: u32) -> Option<u32> {
-    is_bcd(bcd).then(|| from_nibbles(bcd))
-}
-
 /// Character of the hexadecimal digit in the low four bits.
 pub fn hex_digit(digit: u16) -> u8 {
     match digit as u8 & 15 {
@@ -52,13 +47,13 @@ mod tests {
     proptest! {
         #[test]
         fn bcd_and_back(value in 0u32..100_000_000) {
-            prop_assert_eq!(from_bcd(to_bcd(value)), Some(value));
+            prop_assert_eq!(from_nibbles(to_bcd(value)), value);
             prop_assert_eq!(std::format!("{:x}", to_bcd(value)), std::format!("{value}"));
         }
 
         #[test]
         fn only_decimal_digits_are_bcd(word: u32) {
-            prop_assert_eq!(from_bcd(word).is_some(), std::format!("{word:x}").chars().all(|c| c.is_ascii_digit()));
+            prop_assert_eq!(is_bcd(word), std::format!("{word:x}").chars().all(|c| c.is_ascii_digit()));
         }
     }
 }

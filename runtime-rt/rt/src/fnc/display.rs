@@ -6,18 +6,6 @@ use crate::fault::{Done, Fault};
 use crate::operand::OperandKind;
 use crate::special::{M_BYTE_MODE, M_COMPLETE, M_PR_LONG};
 
-/// Segments a (bit 0) to g of the hexadecimal digits.
-const SEGMENTS: [u8; 16] = [
-    0x3f, 0x06, 0x5b, 0x4f, 0x66, 0x6d, 0x7d, 0x27, 0x7f, 0x6f, 0x77, 0x7c, 0x39, 0x5e, 0x79, 0x71,
-];
-
-/// SEGD S D (FNC 73): the segments of the digit in the low four bits of S go to the low byte of D; the high one stays.
-pub fn segd(cx: &mut Cx) -> Done {
-    let digit = usize::from(cx.word(0, 0)? as u16 & 15);
-    let segments = SEGMENTS.get(digit).copied().unwrap_or(0);
-    cx.set_byte(1, 0, false, segments)
-}
-
 /// A number that four digits can show.
 fn shown(cx: &Cx, i: usize, offset: i32) -> Result<u32, Fault> {
     match cx.word(i, offset)? {
@@ -202,13 +190,6 @@ mod tests {
         (0..16)
             .map(|n| u32::from(plc.bit(Class::Y, n).unwrap()) << n)
             .sum()
-    }
-
-    #[test]
-    fn segd_keeps_the_high_byte() {
-        let mut plc = Double::new().with_d(0, &[0x12f4, 0x5500]);
-        plc.call(RtFn::Segd, &[reg(0), reg(1)]).unwrap();
-        assert_eq!(plc.d(1, 1), [0x5566]);
     }
 
     #[test]

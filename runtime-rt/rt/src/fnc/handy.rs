@@ -154,12 +154,6 @@ pub fn stmr(cx: &mut Cx) -> Done {
     cx.set_bit(0, 0, over)
 }
 
-/// ALT D (FNC 66): inverts D.
-pub fn alt(cx: &mut Cx) -> Done {
-    let on = cx.bit(0, 0)?;
-    cx.set_bit(0, 0, !on)
-}
-
 /// RAMP S1 S2 D n (FNC 67): D goes from S1 to S2 in n scans, D+1 counts them, M8029 signals the end; then it restarts,
 /// or with M8026 D stays. Memory: whether the last scan drove it.
 pub fn ramp(cx: &mut Cx) -> Done {
@@ -485,15 +479,6 @@ mod tests {
             plc.scan(100, drive, RtFn::Stmr, &ops).unwrap();
             assert_eq!(plc.m(0, 4), bits);
         }
-    }
-
-    #[test]
-    fn alt_inverts() {
-        let mut plc = Double::new();
-        plc.call(RtFn::Alt, &[relay(0)]).unwrap();
-        assert_eq!(plc.m(0, 1), "1");
-        plc.call(RtFn::Alt, &[relay(0)]).unwrap();
-        assert_eq!(plc.m(0, 1), "0");
     }
 
     #[test]

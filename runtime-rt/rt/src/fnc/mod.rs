@@ -19,7 +19,6 @@ pub mod data;
 pub mod display;
 pub mod exchange;
 pub mod float;
-pub mod gray;
 pub mod handy;
 pub mod keys;
 pub mod modbus;

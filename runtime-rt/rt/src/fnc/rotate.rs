@@ -11,31 +11,6 @@ fn rotate_right(ring: u64, width: u32, n: u32) -> u64 {
     (ring >> n | ring << (width - n)) & mask
 }
 
-/// Rotates D by n places; the bit that passed the end last is also in the carry flag. Nothing happens if n is 0.
-fn rotate(cx: &mut Cx, right: bool) -> Done {
-    let width = cx.width();
-    let n = cx.count(1, 0..=width as i32)? as u32;
-    let value = u64::from(cx.read_unsigned(0)?);
-    if n == 0 {
-        return Ok(());
-    }
-    let value = rotate_right(value, width, if right { n } else { width - n });
-    let last = if right { value >> (width - 1) } else { value };
-    cx.write(0, value as i32)?;
-    cx.set_special(M_CARRY, last & 1 == 1);
-    Ok(())
-}
-
-/// ROR D n (FNC 30): rotates D right.
-pub fn ror(cx: &mut Cx) -> Done {
-    rotate(cx, true)
-}
-
-/// ROL D n (FNC 31): rotates D left.
-pub fn rol(cx: &mut Cx) -> Done {
-    rotate(cx, false)
-}
-
 /// Rotates the ring of D and, above it, the carry flag by n places.
 fn rotate_through_carry(cx: &mut Cx, right: bool) -> Done {
     let width = cx.width();
@@ -259,35 +234,13 @@ mod tests {
         plc.bit(Class::M, 8022).unwrap()
     }
 
-    #[test]
-    fn rotations_leave_the_last_bit_in_the_carry() {
-        let mut plc = Double::new().with_d(0, &[0x0013, 0x6000]);
-        plc.call(RtFn::Ror, &[reg(0), k(2)]).unwrap();
-        assert_eq!(
-            (plc.d(0, 1), carry(&plc)),
-            ([0xc004_u16 as i16].to_vec(), true)
-        );
-        plc.call(RtFn::Rol, &[reg(1), k(2)]).unwrap();
-        assert_eq!(
-            (plc.d(1, 1), carry(&plc)),
-            ([0x8001_u16 as i16].to_vec(), true)
-        );
-        plc.call(RtFn::Rol, &[reg(1), k(16)]).unwrap();
-        assert_eq!(
-            (plc.d(1, 1), carry(&plc)),
-            ([0x8001_u16 as i16].to_vec(), true)
-        );
-        assert_eq!(plc.call(RtFn::Ror, &[reg(0), k(17)]), Err(Fault::VALUE));
-        assert_eq!(plc.call(RtFn::Ror, &[reg(0), k(-1)]), Err(Fault::VALUE));
-    }
-
     /// The catalogue takes n from 0 where the manuals give the upper limit alone.
     #[test]
     fn by_0_places_nothing_moves() {
         let mut plc = Double::new().with_d(0, &[7, 0x1235, 9]);
         plc.set_m(0, "1011");
         plc.set_m(8022, "1");
-        for function in [RtFn::Ror, RtFn::Rol, RtFn::Rcr, RtFn::Rcl] {
+        for function in [RtFn::Rcr, RtFn::Rcl] {
             plc.call(function, &[reg(1), k(0)]).unwrap();
         }
         for function in [RtFn::Sftr, RtFn::Sftl] {
@@ -411,17 +364,6 @@ mod tests {
     }
 
     proptest! {
-        #[test]
-        fn rotations_agree_with_the_machines(value: i32, n in 1i32..=32) {
-            let mut plc = Double::wide();
-            plc.set_dd(0, value);
-            plc.call(RtFn::Ror, &[reg(0), k(n)]).unwrap();
-            prop_assert_eq!(plc.dd(0), value.rotate_right(n as u32));
-            plc.call(RtFn::Rol, &[reg(0), k(n)]).unwrap();
-            prop_assert_eq!(plc.dd(0), value);
-            prop_assert_eq!(carry(&plc), value & 1 == 1);
-        }
-
         #[test]
         fn rcl_undoes_rcr(value: i16, on: bool, n in 1i32..=16) {
             let mut plc = Double::new().with_d(0, &[value.into()]);

@@ -1,49 +1,7 @@
-//! Limits, dead bands and scaling: FNC 256–259 and 269 of the FX3 programming manual, l01s-programming §4.2.
+//! Scaling: FNC 259 and 269 of the FX3 programming manual, l01s-programming §4.2.
 
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
-
-/// S1 and S2 as lower and upper bound; a fault if they are the wrong way round.
-fn bounds(cx: &Cx) -> Result<(i32, i32), Fault> {
-    let (low, high) = (cx.read(0)?, cx.read(1)?);
-    if low <= high {
-        Ok((low, high))
-    } else {
-        Err(Fault::DEVICE)
-    }
-}
-
-/// LIMIT S1 S2 S3 D (FNC 256): S3 held between S1 and S2.
-pub fn limit(cx: &mut Cx) -> Done {
-    let (low, high) = bounds(cx)?;
-    let value = cx.read(2)?;
-    cx.write(3, value.clamp(low, high))
-}
-
-/// BAND S1 S2 S3 D (FNC 257): 0 while S3 lies between S1 and S2, else how far it lies outside; wraps.
-pub fn band(cx: &mut Cx) -> Done {
-    let (low, high) = bounds(cx)?;
-    let value = cx.read(2)?;
-    let outside = if value < low {
-        value.wrapping_sub(low)
-    } else if value > high {
-        value.wrapping_sub(high)
-    } else {
-        0
-    };
-    cx.write(3, outside)
-}
-
-/// ZONE S1 S2 S3 D (FNC 258): S3 + S1 if S3 is negative, S3 + S2 if it is positive, 0 if it is 0; wraps.
-pub fn zone(cx: &mut Cx) -> Done {
-    let (below, above, value) = (cx.read(0)?, cx.read(1)?, cx.read(2)?);
-    let shifted = match value {
-        ..0 => value.wrapping_add(below),
-        0 => 0,
-        1.. => value.wrapping_add(above),
-    };
-    cx.write(3, shifted)
-}
 
 /// Position of the coordinates of point `i` (from 0) of `count` in the table, as elements after its head.
 type Place = fn(i: i32, count: i32) -> (i32, i32);
@@ -105,25 +63,6 @@ pub fn scl2(cx: &mut Cx) -> Done {
 mod tests {
     use crate::double::{Double, reg};
     use crate::{Fault, RtFn, k};
-
-    fn apply(function: RtFn, a: i32, b: i32, c: i32) -> Result<i16, Fault> {
-        let mut plc = Double::new();
-        plc.call(function, &[k(a), k(b), k(c), reg(0)])?;
-        Ok(plc.d(0, 1)[0])
-    }
-
-    #[test]
-    fn limits_bands_and_zones() {
-        assert_eq!(apply(RtFn::Limit, -5, 5, 7), Ok(5));
-        assert_eq!(apply(RtFn::Limit, -5, 5, -7), Ok(-5));
-        assert_eq!(apply(RtFn::Limit, 5, -5, 0), Err(Fault::DEVICE));
-        assert_eq!(apply(RtFn::Band, -5, 5, 7), Ok(2));
-        assert_eq!(apply(RtFn::Band, -5, 5, -7), Ok(-2));
-        assert_eq!(apply(RtFn::Band, -5, 5, 4), Ok(0));
-        assert_eq!(apply(RtFn::Zone, -100, 100, -1), Ok(-101));
-        assert_eq!(apply(RtFn::Zone, -100, 100, 1), Ok(101));
-        assert_eq!(apply(RtFn::Zone, -100, 100, 0), Ok(0));
-    }
 
     #[test]
     fn scaling_interpolates_and_rounds() {

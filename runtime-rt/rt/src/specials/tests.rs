@@ -173,7 +173,6 @@ fn used(function: RtFn, random: &mut Random) -> Watched {
     for modes in [
         RtFn::Smov,
         RtFn::Bmov,
-        RtFn::Xch,
         RtFn::Rcr,
         RtFn::MeanSum,
         RtFn::Asci,

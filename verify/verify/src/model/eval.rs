@@ -189,6 +189,14 @@ impl Encoder<'_> {
                 let difference = aig.sub(&signed(a, width + 1), &signed(b, width + 1));
                 aig.saturate(&difference, width)
             }
+            BinOp::Min => {
+                let less = aig.less(a, b);
+                aig.select(less, a, b)
+            }
+            BinOp::Max => {
+                let less = aig.less(a, b);
+                aig.select(less, b, a)
+            }
             BinOp::RotateLeft => aig.rotate_left(a, b),
         }
     }
@@ -212,6 +220,14 @@ impl Encoder<'_> {
                 let zero = constant(0, 32);
                 (0..).zip(a).fold(zero, |highest, (i, &bit)| {
                     self.aig.select(bit, &constant(i, 32), &highest)
+                })
+            }
+            UnOp::Segments => {
+                let none = constant(0, 16);
+                (0..16).fold(none, |segments, digit: i16| {
+                    let shown = self.aig.is(&a[..4], digit.into());
+                    let pattern = constant(word::segments(digit).into(), 16);
+                    self.aig.select(shown, &pattern, &segments)
                 })
             }
             UnOp::Negate => {
