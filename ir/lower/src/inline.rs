@@ -1,6 +1,6 @@
 //! Selection of the instructions that are inline code although the runtime has functions for them.
 
-use super::{Lowerer, blocks, digits, drums, queues, times, words};
+use super::{Lowerer, annunciators, blocks, digits, drums, queues, times, words};
 use rungc_rt::RtFn;
 use rungc_syntax::Instr;
 
@@ -13,6 +13,7 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
         || blocks::is_inline(function, instr)
         || queues::is_inline(function, instr)
         || drums::is_inline(function, instr)
+        || annunciators::is_inline(function, instr)
 }
 
 /// Returns true if the flags of an instruction's row are to be stored: by those that the runtime executes, and by those
@@ -30,5 +31,6 @@ impl Lowerer<'_> {
             || self.inline_block(function)
             || self.inline_queue(function)
             || self.inline_drum(function)
+            || self.inline_annunciator(function)
     }
 }

@@ -11,6 +11,7 @@
 #![deny(clippy::wildcard_enum_match_arm)]
 
 mod advanced;
+mod annunciators;
 mod arith;
 mod axes;
 mod blocks;

@@ -224,6 +224,10 @@ fn operations_on_values() {
         &on(ModelId::Fx3u),
         "LD X0\nROR D0 D1\nBON D2 M0 D3\nXCH D4 D4\nGBIN D5 D6\nLD X1\nOUT M8160\nEND\n"
     ));
+    insta::assert_snapshot!(both(
+        &on(ModelId::Fx3u),
+        "LD X0\nANS T0 K10 S900\nLD X1\nTADD D0 D3 D6\nSTOH D9 D10\nEND\n"
+    ));
 }
 
 /// Returns true if a module calls the runtime.
@@ -247,6 +251,8 @@ fn flags_and_operands_call_the_runtime() {
     assert!(!calls("LD X0\nROR D0 K4\nLD M8022\nOUT Y0\nEND\n"));
     assert!(calls("LD X0\nRCR D0 D1\nEND\n"));
     assert!(!calls("LD X0\nROR D0 D1\nEND\n"));
+    assert!(calls("LD X0\nANS T0 D0 S900\nEND\n"));
+    assert!(!calls("LD X0\nANS T0 K10 S900\nEND\n"));
     assert!(!calls("LD X0\nXCH D0 D1\nEND\n"));
     assert!(!calls("LD X0\nXCH D0 D0\nLD X1\nOUT M8160\nEND\n"));
 }
