@@ -33,11 +33,13 @@ impl Lowerer<'_> {
         let Some(kind) = self.model.timer(timer.number) else {
             return false;
         };
-        // Whatever unit the timer has as such, ANS counts tenths of seconds.
+        // Whatever the timer is as such, ANS counts tenths of seconds up to its time.
         let kind = TimerKind {
             unit_ms: 100,
             accumulating: false,
             free_running: false,
+            latches_preset: false,
+            overruns: false,
             stepwise: false,
             ..kind
         };
