@@ -2,6 +2,7 @@
 //! `rungc::NAME`, and so does `find_package()` after an installation.
 
 use crate::makefile::{Recipe, Source};
+use crate::parts::Runtime;
 use std::fmt::Write;
 
 /// Beginning of the file; `@PROJECT@` is its name.
@@ -87,8 +88,9 @@ set_target_properties(plc_@NAME@_main PROPERTIES OUTPUT_NAME @NAME@ C_STANDARD 9
 target_link_libraries(plc_@NAME@_main PRIVATE plc_@NAME@)
 ";
 
-/// A `CMakeLists.txt` with a target for each program, of which none has the name of another.
-pub(crate) fn cmake_lists(recipes: &[Recipe]) -> String {
+/// A `CMakeLists.txt` with a target for each program, of which none has the name of another; those that call the
+/// runtime link this one.
+pub(crate) fn cmake_lists(recipes: &[Recipe], runtime: &Runtime) -> String {
     let targets: Vec<String> = recipes
         .iter()
         .map(|recipe| format!("rungc::{}", recipe.name))
@@ -102,12 +104,12 @@ pub(crate) fn cmake_lists(recipes: &[Recipe]) -> String {
         targets.join(", "),
         PROJECT.replace("@PROJECT@", &project)
     );
-    if recipes.iter().any(|recipe| recipe.shared.runtime) {
+    if runtime.is_library() {
         let std = recipes.iter().any(|recipe| recipe.shared.std);
         text.push_str(&runtime_of(Source::new(std), &project, "", TARGET));
     }
     for recipe in recipes {
-        program(&mut text, recipe, &project);
+        program(&mut text, recipe, &project, runtime);
     }
     text
 }
@@ -133,10 +135,13 @@ fn runtime_of(source: &Source, project: &str, root: &str, target: &str) -> Strin
 }
 
 /// The targets of one program.
-fn program(text: &mut String, recipe: &Recipe, project: &str) {
+fn program(text: &mut String, recipe: &Recipe, project: &str, runtime: &Runtime) {
     let Recipe { name, folder, .. } = recipe;
     let sources = recipe.sources.iter().filter(|source| *source != "main.c");
-    let sources: Vec<String> = sources.map(|source| format!("{folder}{source}")).collect();
+    let parts = runtime.parts().filter(|_| recipe.shared.calls_runtime());
+    let parts = parts.into_iter().flat_map(|parts| parts.paths(".c"));
+    let sources = sources.map(|source| format!("{folder}{source}"));
+    let sources: Vec<String> = sources.chain(parts.map(String::from)).collect();
     let own = recipe.headers.iter();
     let own = own
         .filter(|header| !header.ends_with("_internal.h"))
@@ -158,7 +163,7 @@ fn program(text: &mut String, recipe: &Recipe, project: &str) {
         .replace("@SOURCES@", &sources.join(" "))
         .replace("@FOLDERS@", &includes);
     text.push_str(&library.replace("@NAME@", name));
-    if recipe.shared.runtime {
+    if recipe.links_library(runtime) {
         let link = LINK_RUNTIME.replace("@PROJECT@", project);
         text.push_str(&link.replace("@NAME@", name));
     }

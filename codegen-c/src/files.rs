@@ -1,6 +1,7 @@
 //! Puts units into files.
 
 use crate::makefile::{self, Recipe};
+use crate::parts::{Parts, Runtime};
 use crate::unit::{self, Unit};
 use crate::{Options, OutFile, access, board, cmake, header, lanes, retain, template, text};
 use rungc_emit::cycle;
@@ -42,8 +43,14 @@ impl Part {
         );
         let name = &module.name;
         let retain = (options.retain || options.main) && cycle::keeps_any(module);
+        let runtime = match unit.runtime {
+            false => Runtime::None,
+            // A main program with servers or connections needs a host's services.
+            true if options.main && (options.servers || options.io) => Runtime::Library,
+            true => Parts::of(module).map_or(Runtime::Library, Runtime::C),
+        };
         let shared = Shared {
-            runtime: unit.runtime,
+            runtime,
             std: options.main && options.io,
             board: options.board || module.takes_events(),
             access: options.access || retain,
@@ -54,10 +61,12 @@ impl Part {
             name: name.clone(),
             folder: String::new(),
             sources: Vec::new(),
-            headers: own_headers(name, shared, unit.groups.len() > 1),
+            headers: own_headers(name, &shared, unit.groups.len() > 1),
             main: options.main,
             shared,
         };
+        let shared = recipe.shared.clone();
+        let runtime = unit.runtime;
         let mut files = own_files(module, unit, options.main, &mut recipe.sources);
         let mut pair = |part: &str, texts: [String; 2]| {
             for (ending, text) in ["h", "c"].into_iter().zip(texts) {
@@ -70,7 +79,7 @@ impl Part {
             }
         };
         if shared.board {
-            let source = board::source(module, shared.runtime);
+            let source = board::source(module, runtime);
             pair("board", [board::header(module), source]);
         }
         if shared.access {
@@ -100,7 +109,8 @@ impl Part {
     pub fn alone(self) -> Vec<OutFile> {
         let mut files = self.files;
         files.extend(self.recipe.shared.files());
-        files.extend(builds(&[self.recipe]));
+        let runtime = &self.recipe.shared.runtime.clone();
+        files.extend(builds(&[self.recipe], runtime));
         files
     }
 
@@ -117,8 +127,9 @@ impl Part {
 /// Files shared by programs in separate folders: headers, the runtime's sources, and the Makefile that builds them all.
 pub fn together(recipes: &[Recipe]) -> Vec<OutFile> {
     let needed = |what: fn(&Shared) -> bool| recipes.iter().any(|recipe| what(&recipe.shared));
+    let runtime = Runtime::together(recipes.iter().map(|recipe| &recipe.shared.runtime));
     let shared = Shared {
-        runtime: needed(|shared| shared.runtime),
+        runtime: runtime.clone(),
         std: needed(|shared| shared.std),
         board: needed(|shared| shared.board),
         access: needed(|shared| shared.access),
@@ -126,15 +137,15 @@ pub fn together(recipes: &[Recipe]) -> Vec<OutFile> {
         lanes: needed(|shared| shared.lanes),
     };
     let mut files = shared.files();
-    files.extend(builds(recipes));
+    files.extend(builds(recipes, &runtime));
     files
 }
 
-/// Build files of the programs, for CMake and for `make`.
-fn builds(recipes: &[Recipe]) -> [OutFile; 2] {
+/// Build files of the programs, for CMake and for `make`; those that call the runtime link this one.
+fn builds(recipes: &[Recipe], runtime: &Runtime) -> [OutFile; 2] {
     [
-        OutFile::new("CMakeLists.txt", cmake::cmake_lists(recipes)),
-        OutFile::new("Makefile", makefile::makefile(recipes)),
+        OutFile::new("CMakeLists.txt", cmake::cmake_lists(recipes, runtime)),
+        OutFile::new("Makefile", makefile::makefile(recipes, runtime)),
     ]
 }
 
@@ -179,7 +190,7 @@ fn own_files(module: &Module, unit: Unit, main: bool, sources: &mut Vec<String>)
 }
 
 /// The headers of a program that are not shared.
-fn own_headers(name: &str, shared: Shared, several: bool) -> Vec<String> {
+fn own_headers(name: &str, shared: &Shared, several: bool) -> Vec<String> {
     let kinds = [
         (true, ""),
         (shared.board, "_board"),
@@ -240,10 +251,10 @@ fn same_version(own: &str, shared: &str, guard: &str, text: &str) -> String {
 }
 
 /// Dependencies of programs in addition to their own files.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Shared {
-    /// The runtime library: its header and its sources.
-    pub runtime: bool,
+    /// The runtime: its header and its sources.
+    pub(crate) runtime: Runtime,
     /// The library has a host's services in it, for connections, and with them the standard library of Rust.
     pub std: bool,
     /// The header for boards; its types are in the runtime's header, too.
@@ -258,16 +269,21 @@ pub struct Shared {
 
 impl Shared {
     /// The headers.
-    pub fn headers(self) -> impl Iterator<Item = &'static str> {
+    pub fn headers(&self) -> impl Iterator<Item = &'static str> {
         self.texts().map(|(name, _)| name)
     }
 
+    /// Returns true if the program calls the runtime.
+    pub fn calls_runtime(&self) -> bool {
+        self.runtime != Runtime::None
+    }
+
     /// The headers with their texts as they stand in `include/`.
-    fn texts(self) -> impl Iterator<Item = (&'static str, &'static str)> {
+    fn texts(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
         let kinds = [
             (true, "rungc.h", template!("rungc.h")),
             (
-                self.runtime || self.board,
+                self.calls_runtime() || self.board,
                 "rungc_rt.h",
                 template!("rungc_rt.h"),
             ),
@@ -281,7 +297,7 @@ impl Shared {
     }
 
     /// The headers, and the runtime's sources.
-    fn files(self) -> Vec<OutFile> {
+    fn files(&self) -> Vec<OutFile> {
         let header = |(path, text)| {
             let text = match path {
                 "rungc.h" => stamped(text, "RUNGC_H"),
@@ -291,7 +307,10 @@ impl Shared {
             OutFile::new(path, text)
         };
         let mut files: Vec<OutFile> = self.texts().map(header).collect();
-        if self.runtime {
+        if let Some(parts) = self.runtime.parts() {
+            files.extend(parts.files());
+        }
+        if self.runtime.is_library() {
             let sources = rungc_runtime_sources::library::sources(self.std).into_iter();
             files
                 .extend(sources.map(|(path, text)| OutFile::new(format!("rungc-rt/{path}"), text)));
@@ -408,8 +427,9 @@ fn batch_entry(i: usize, module: &Module, functions: &mut String, entries: &mut 
     let _ = writeln!(entries, "    {entry}({i}, {scan}),");
 }
 
-/// The files of a program that holds all modules, for tests.
-pub fn batch(modules: &[Module]) -> Vec<OutFile> {
+/// The files of a program that holds all modules, for tests; `in_c`: the runtime's parts in C come before the library,
+/// which has the rest and the virtual hardware.
+pub fn batch(modules: &[Module], in_c: bool) -> Vec<OutFile> {
     let mut parts: Vec<Batched> = Vec::new();
     let (mut functions, mut entries, mut memory) = (String::new(), String::new(), String::new());
     for (i, module) in modules.iter().enumerate() {
@@ -455,8 +475,12 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         .replace("/* CASES */\n", &functions)
         .replace("    /* ENTRIES */\n", &entries);
     files.push(OutFile::new("main.c", main));
+    let parts = in_c.then(|| Parts::all(modules)).unwrap_or_default();
+    let own = parts.paths(".c").map(String::from);
+    sources.extend(own);
+    files.extend(parts.files());
     let shared = Shared {
-        runtime: true,
+        runtime: Runtime::Library,
         std: false,
         board: false,
         access: false,
@@ -472,13 +496,20 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         main: true,
         shared,
     };
-    let makefile = makefile::makefile(&[recipe]) + MAIN_RULE;
+    let makefile = makefile::makefile(&[recipe], &Runtime::Library) + MAIN_RULE;
+    let makefile = match in_c {
+        true => makefile + PARTS_RULE,
+        false => makefile,
+    };
     files.push(OutFile::new("Makefile", makefile));
     files
 }
 
 /// Rule that builds `main.c` of a batch: it only calls, thousands of functions.
 const MAIN_RULE: &str = "\nmain.o: override CFLAGS += -O0\n";
+
+/// Rule that takes what is there in C, not what the library has of the same name.
+const PARTS_RULE: &str = "\nbatch: override LDFLAGS += -Wl,--allow-multiple-definition\n";
 
 /// About how large a source file of a batch may be, in bytes.
 const BATCH_FILE: usize = 400_000;

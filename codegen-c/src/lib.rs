@@ -30,6 +30,7 @@ pub mod lanes;
 mod makefile;
 mod members;
 mod page;
+mod parts;
 mod reads;
 mod retain;
 mod run_control;
@@ -45,6 +46,7 @@ pub use cmake::runtime as cmake_runtime;
 pub use files::{Part, together};
 pub use makefile::Recipe;
 pub use members::Members;
+pub use parts::{RuntimeCall, runtime_calls};
 pub use retain::record_len;
 pub use rungc_emit::OutFile;
 pub use rungc_emit::storage::{Memory, memory};
@@ -90,7 +92,12 @@ use template;
 /// Emits one executable that holds all programs and does what requests on its standard input say: for tests. `make`
 /// builds it as `batch`; the protocol is that of `rungc-sim`, and the hardware is virtual.
 pub fn batch(modules: &[Module]) -> Vec<OutFile> {
-    files::batch(modules)
+    files::batch(modules, false)
+}
+
+/// The same with the runtime in C as far as it is there, and its library for the rest.
+pub fn batch_in_c(modules: &[Module]) -> Vec<OutFile> {
+    files::batch(modules, true)
 }
 
 /// Emits a program. The same module gives the same bytes.

@@ -1,6 +1,7 @@
 //! The Makefile beside emitted C, of one program or of several.
 
 use crate::files::Shared;
+use crate::parts::Runtime;
 use std::fmt::Write;
 
 /// Path of the runtime library; `make` needs it before the first rule that uses it.
@@ -115,19 +116,26 @@ impl Recipe {
         }
     }
 
-    /// Its objects as a list for a Makefile.
-    fn object_files(&self) -> String {
-        let objects = self.sources.iter().map(|source| {
-            let object = source.replace(".c", ".o");
-            format!("{}{object}", self.folder)
-        });
+    /// Its objects as a list for a Makefile, with those of the runtime in C if it calls that.
+    fn object_files(&self, runtime: &Runtime) -> String {
+        let own = self.sources.iter();
+        let own = own.map(|source| format!("{}{source}", self.folder));
+        let parts = runtime.parts().filter(|_| self.shared.calls_runtime());
+        let parts = parts.into_iter().flat_map(|parts| parts.paths(".c"));
+        let sources = own.chain(parts.map(String::from));
+        let objects = sources.map(|source| source.replace(".c", ".o"));
         objects.collect::<Vec<_>>().join(" ")
     }
 
+    /// Returns true if it links the runtime library.
+    pub(crate) fn links_library(&self, runtime: &Runtime) -> bool {
+        runtime.is_library() && self.shared.calls_runtime()
+    }
+
     /// The rules for its target and its objects.
-    fn rules(&self, text: &mut String, count: usize) {
+    fn rules(&self, text: &mut String, count: usize, runtime: &Runtime) {
         let (target, objects) = (self.target(), self.objects(count));
-        let library = library(self.shared.runtime);
+        let library = library(self.links_library(runtime));
         let _ = match self.main {
             true => writeln!(
                 text,
@@ -142,7 +150,10 @@ impl Recipe {
             .headers
             .iter()
             .map(|path| format!("{}{path}", self.folder));
-        let headers: Vec<String> = own.chain(self.shared.headers().map(String::from)).collect();
+        let parts = runtime.parts().into_iter();
+        let parts = parts.flat_map(|parts| parts.paths(".h"));
+        let shared = self.shared.headers().chain(parts).map(String::from);
+        let headers: Vec<String> = own.chain(shared).collect();
         let _ = writeln!(text, "$({objects}): {}\n", headers.join(" "));
     }
 }
@@ -152,10 +163,10 @@ fn library(runtime: bool) -> &'static str {
     if runtime { " $(LIBRARY)" } else { "" }
 }
 
-/// A Makefile that builds all programs, of which none has the name of another.
-pub fn makefile(recipes: &[Recipe]) -> String {
+/// A Makefile that builds all programs, of which none has the name of another; those that call the runtime link this one.
+pub(crate) fn makefile(recipes: &[Recipe], linked: &Runtime) -> String {
     let count = recipes.len();
-    let runtime = recipes.iter().any(|recipe| recipe.shared.runtime);
+    let runtime = linked.is_library();
     let std = recipes.iter().any(|recipe| recipe.shared.std);
     let source = Source::new(std);
     let targets: Vec<String> = recipes.iter().map(Recipe::target).collect();
@@ -188,7 +199,7 @@ pub fn makefile(recipes: &[Recipe]) -> String {
             text,
             "{} = {}",
             recipe.objects(count),
-            recipe.object_files()
+            recipe.object_files(linked)
         );
     }
     if runtime {
@@ -203,7 +214,7 @@ pub fn makefile(recipes: &[Recipe]) -> String {
         text.push_str(&rule.replace("@FOLDERS@", &folders));
     }
     for recipe in recipes {
-        recipe.rules(&mut text, count);
+        recipe.rules(&mut text, count, linked);
     }
     text.push_str("clean:\n\trm -rf");
     for recipe in recipes {

@@ -4,6 +4,7 @@ mod access;
 mod build;
 mod emit;
 mod errors;
+mod parts;
 mod retain;
 mod shapes;
 mod windows;

@@ -95,6 +95,21 @@ fn instructions_of_the_runtime() {
     insta::assert_snapshot!(makefile);
 }
 
+/// Pulses take a C compiler and nothing else.
+#[test]
+fn pulses_need_no_library() {
+    let list = "LD X0\nPLSY K1000 K25 Y0\nLD M8029\nOUT Y1\nEND";
+    let module = module(list, ModelId::Fx3u);
+    let files = emit(&module, &Options::default());
+    for file in &files {
+        assert!(!file.contents.contains("cargo"), "{}", file.path);
+    }
+    let main = "shape_plc plc;\nshape_init(&plc);\nplc.X0 = true;\n\
+                for (uint32_t ms = 0; ms < 40u; ms++) {\nshape_tick(&plc, ms);\nshape_scan(&plc, ms, 1000);\n}\n\
+                printf(\"%ld %d\\n\", (long)plc.axis[0].sent, shape_output(&plc, 1));";
+    assert_eq!(run_c(&module, main), "25 1\n");
+}
+
 #[test]
 fn the_same_bytes_every_time() {
     let list =

@@ -1,6 +1,7 @@
 //! `rungc build`.
 
 mod fitting;
+mod library;
 mod runtime;
 
 use super::names::Names;
@@ -116,6 +117,8 @@ fn build(
         let lines = compiled.ports.iter().map(ports::line);
         let served = ports::served(&compiled.ports, plan, subject);
         lines.chain(served).for_each(|line| cx.note(&line));
+        let library = library::note(&module).filter(|_| plan.emit == Some(Emit::C));
+        library.iter().for_each(|line| cx.note(line));
     }
     if let (Some(takes), true) = (&findings.takes, reporter.is_for_people()) {
         print_text(&takes.to_string())?;

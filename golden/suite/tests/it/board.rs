@@ -209,7 +209,7 @@ fn nothing_is_lost_between_board_and_program() {
     std::fs::write(folder.path().join("firmware.c"), FIRMWARE).expect("writing");
     let build = format!(
         "make -s CFLAGS='{CFLAGS}' && \
-         cc {CFLAGS} -o firmware firmware.c libbench.a rungc-rt/target/release/librungc_rt.a && ./firmware"
+         cc {CFLAGS} -o firmware firmware.c libbench.a && ./firmware"
     );
     same(&shell(&build, folder.path()), &interpreted.trace);
 }

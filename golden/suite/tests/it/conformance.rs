@@ -5,8 +5,9 @@
 //! and a listed case that passes must be removed from the list.
 
 use crate::suite::Conformance;
+use rungc_codegen_c::runtime_calls;
 use rungc_golden::part::Part;
-use rungc_sim::engines::{EngineKind, build};
+use rungc_sim::engines::{EngineKind, build, build_c_with_parts};
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -44,6 +45,20 @@ fn emitted_rust_passes_all_cases() {
             .iter()
             .for_each(|batch| check(EngineKind::Rust, batch)),
     }
+}
+
+/// The runtime's parts in C do what those of the library do.
+#[test]
+fn parts_in_c_pass_their_cases() {
+    let conformance = Conformance::of(|module| {
+        let mut calls = runtime_calls(module).into_iter();
+        calls.any(|call| call.in_c && !call.steps.is_empty())
+    });
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("conformance");
+    let engine = build_c_with_parts(conformance.modules(), &target);
+    let mut engine = engine.unwrap_or_else(|error| panic!("{error}"));
+    let wrong = conformance.run(&mut *engine);
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]

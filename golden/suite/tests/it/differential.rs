@@ -2,8 +2,9 @@
 //! after each scan.
 //!
 //! The environment variables `RUNGC_RANDOM_PROGRAMS`, `RUNGC_RANDOM_SCANS` and `RUNGC_RANDOM_SEED` make it longer, or
-//! another one; `RUNGC_RANDOM_WAY` names one way to run the programs instead of the three engines: `rust`, `interp`, a
-//! C compiler with its flags (`clang -O3`), or a simulated microcontroller with the language (`cortex-m4 c`).
+//! another one; `RUNGC_RANDOM_WAY` names one way to run the programs instead of the three engines: `rust`, `interp`,
+//! `parts` (C with the runtime in C), a C compiler with its flags (`clang -O3`), or a simulated microcontroller with the
+//! language (`cortex-m4 c`).
 //!
 //! Where the environment names the run ([`rungc_golden::part`]), there are fewer programs: a third of the random ones,
 //! from a seed that follows from the name, and the rows of one model.
@@ -27,6 +28,7 @@ use rungc_rt::Class;
 use rungc_sim::engines::cortex_m::{CORTEX_M3, CORTEX_M4, build_for};
 use rungc_sim::engines::{
     BuildError, Engine, EngineError, EngineKind, Interpreter, build, build_c_with,
+    build_c_with_parts,
 };
 use rungc_sim::protocol::{Answer, Request};
 use rungc_syntax::{Classes, Device, DeviceClass, Index};
@@ -505,13 +507,19 @@ fn engines<'m>(
 ) -> Result<Vec<Box<dyn Engine + 'm>>, BuildError> {
     let Ok(way) = std::env::var("RUNGC_RANDOM_WAY") else {
         let all = EngineKind::ALL.into_iter();
-        return all.map(|kind| build(kind, modules, target)).collect();
+        // Emitted C calls the runtime in C as far as it is there: the conformance cases know the library.
+        let build = |kind| match kind {
+            EngineKind::C => build_c_with_parts(modules, target),
+            EngineKind::Interp | EngineKind::Rust => build(kind, modules, target),
+        };
+        return all.map(build).collect();
     };
     let target = target.join(way.replace(|c: char| !c.is_ascii_alphanumeric(), "-"));
     let (first, rest) = way.split_once(' ').unwrap_or((&way, ""));
     let kind = |name| EngineKind::from_name(name).unwrap_or_else(|| panic!("no engine {name}"));
     let engine = match first {
         "interp" | "rust" => build(kind(first), modules, &target),
+        "parts" => build_c_with_parts(modules, &target),
         "cortex-m3" => build_for(&CORTEX_M3, kind(rest), modules, &target),
         "cortex-m4" => build_for(&CORTEX_M4, kind(rest), modules, &target),
         compiler => build_c_with(compiler, rest, modules, &target),

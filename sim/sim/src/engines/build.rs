@@ -1,6 +1,7 @@
 //! Builds executables from the emitted C and Rust of a batch of programs.
 
 use super::{Engine, Interpreter, Process};
+use rungc_codegen_c::OutFile;
 use rungc_ir::Module;
 use rungc_runtime_sources::cache;
 use rungc_runtime_sources::library::{self, Optimise, Recipe};
@@ -154,16 +155,16 @@ pub fn host_runtime() -> Option<PathBuf> {
     runtime(&Command::new(cargo), None, Optimise::Speed)
 }
 
-/// Writes the C files of a batch and lets `make` build it, with these flags in addition to the standard ones, and link
+/// Writes the C files of a batch, and lets `make` build it, with these flags in addition to the standard ones, and link
 /// this runtime.
 pub(super) fn make_batch(
     make: &mut Command,
     flags: &str,
     runtime: Option<&Path>,
-    modules: &[Module],
+    files: Vec<OutFile>,
     folder: &Path,
 ) -> Result<PathBuf, BuildError> {
-    for file in rungc_codegen_c::batch(modules) {
+    for file in files {
         write(&folder.join(&file.path), &file.contents)?;
     }
     if let Some(runtime) = runtime {
@@ -183,9 +184,25 @@ fn build_c(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
         &mut Command::new("make"),
         "",
         runtime.as_deref(),
-        modules,
+        rungc_codegen_c::batch(modules),
         folder,
     )
+}
+
+/// Emitted C with the runtime's parts in C before those of the library. Otherwise as [`build`].
+pub fn build_c_with_parts<'m>(
+    modules: &'m [Module],
+    folder: &Path,
+) -> Result<Box<dyn Engine + 'm>, BuildError> {
+    let command = make_batch(
+        &mut Command::new("make"),
+        "-Wsign-conversion",
+        host_runtime().as_deref(),
+        rungc_codegen_c::batch_in_c(modules),
+        &folder.join("c-parts"),
+    )?;
+    let name = EngineKind::C.name();
+    Ok(Box::new(Process::new(name, Command::new(command))))
 }
 
 /// Builds the executable of a program in a folder, by `cc`: what is emitted with these options, and this `main`.
@@ -226,7 +243,7 @@ pub fn build_c_with<'m>(
         &mut make,
         &flags,
         host_runtime().as_deref(),
-        modules,
+        rungc_codegen_c::batch(modules),
         &folder.join(EngineKind::C.name()),
     )?;
     let name = EngineKind::C.name();

@@ -200,7 +200,8 @@ fn build_c(board: &Board, modules: &[Module], folder: &Path) -> Result<PathBuf, 
     make_with(&mut make, &cargo);
     let runtime = build::runtime(&cargo, Some(board.target), Optimise::Size);
     let flags = format!("{} {}", board.flags(), board.optimisation);
-    make_batch(&mut make, &flags, runtime.as_deref(), modules, folder)
+    let files = rungc_codegen_c::batch(modules);
+    make_batch(&mut make, &flags, runtime.as_deref(), files, folder)
 }
 
 fn build_rust(board: &Board, modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {

@@ -7,7 +7,9 @@ mod interpreter;
 mod piped;
 mod process;
 
-pub use build::{BuildError, EngineKind, build, build_c_with, build_with_main, host_runtime};
+pub use build::{
+    BuildError, EngineKind, build, build_c_with, build_c_with_parts, build_with_main, host_runtime,
+};
 pub use interpreter::{Interpreter, Observers};
 pub use piped::Piped;
 pub use process::Process;

@@ -157,6 +157,32 @@ impl Conformance {
         batches.into_iter().map(batch).collect()
     }
 
+    /// Those with a program for which this is true.
+    pub fn of(is_taken: impl Fn(&Module) -> bool) -> Self {
+        let all = Self::all();
+        let modules = all.suite.modules();
+        let cases = all.suite.cases();
+        let taken = cases.filter(|(id, _)| {
+            let mut modules_of = all.suite.modules_of(*id).iter();
+            modules_of.any(|&module| is_taken(&modules[module]))
+        });
+        let taken: BTreeSet<_> = taken.map(|(id, _)| (id.file, id.case)).collect();
+        let files = all.suite.files().iter().cloned();
+        let files = (0..).zip(files).map(|(file, mut contents)| {
+            let mut case = 0;
+            contents.cases.retain(|_| {
+                case += 1;
+                taken.contains(&(file, case - 1))
+            });
+            contents
+        });
+        let files = files.filter(|file| !file.cases.is_empty()).collect();
+        Conformance {
+            suite: Suite::compile(files, &[]),
+            disputed: all.disputed,
+        }
+    }
+
     /// The compiled programs.
     pub fn modules(&self) -> &[Module] {
         self.suite.modules()
