@@ -1,7 +1,6 @@
 //! Instructions driven by rungs of `display`: digits for lamps and from thumbwheels, selections of one lamp of eight,
 //! blocks of bits from words and back.
 
-use super::Device;
 use super::driven::{Driven, WORDS, words};
 use crate::random::Random;
 use rungc_syntax::DeviceClass::{M, X, Y};
@@ -19,88 +18,88 @@ const LAMPS: u32 = 8;
 pub fn random(random: &mut Random) -> Driven {
     let which = random.below(13);
     let [a, b] = [0; 2].map(|_| random.below(WORDS));
-    let (group, pair) = (
-        OUTPUTS + 8 * random.below(8),
-        OUTPUTS + 16 * random.below(4),
-    );
+    let group = OUTPUTS + 8 * random.below(8);
+    let pair = OUTPUTS + 16 * random.below(4);
     let wheel = 16 * random.below(8);
     let relay = RELAYS + random.below(500);
-    let lamps: Vec<Device> = (relay..relay + LAMPS).map(|n| (M, n)).collect();
-    let new = |steps, list: String, hand: String, words_used: &[u32], bits: Vec<Device>| {
-        let mut driven = Driven::new(steps, list, hand, words(words_used.iter().copied()));
-        driven.devices.extend(bits);
-        driven
-    };
-    let outputs = |first: u32, count: u32| (first..first + count).map(|n| (Y, n)).collect();
     match which {
-        0..=1 => new(
+        0..=6 => digits(which, [a, b], [group, pair, wheel]),
+        7..=10 => lamps(which, [a, b], relay),
+        _ => Driven::constant(random),
+    }
+}
+
+/// Digits for lamps and from thumbwheels.
+fn digits(which: u32, [a, b]: [u32; 2], [group, pair, wheel]: [u32; 3]) -> Driven {
+    let rest = b + 1;
+    match which {
+        0..=1 => Driven::new(
             5,
             format!("SEGD D{a} K2Y{group:03o}"),
             format!("put_bits(&p->Y[{group}], 8, segments[p->D[{a}] & 15]);"),
-            &[a],
-            outputs(group, 8),
-        ),
-        2 => new(
+            words([a]),
+        )
+        .and_bits(Y, group, 8),
+        2 => Driven::new(
             12,
-            format!("DIV D{a} K10 D{b};SEGD D{} K2Y{group:03o}", b + 1),
+            format!("DIV D{a} K10 D{b};SEGD D{rest} K2Y{group:03o}"),
             format!(
-                "const int16_t value = p->D[{a}]; p->D[{b}] = value / 10; p->D[{}] = value % 10; \
-                 put_bits(&p->Y[{group}], 8, segments[p->D[{}] & 15]);",
-                b + 1,
-                b + 1
+                "const int16_t value = p->D[{a}]; p->D[{b}] = value / 10; p->D[{rest}] = value % 10; \
+                 put_bits(&p->Y[{group}], 8, segments[p->D[{rest}] & 15]);"
             ),
-            &[a, b, b + 1],
-            outputs(group, 8),
-        ),
-        3..=4 => new(
+            words([a, b, rest]),
+        )
+        .and_bits(Y, group, 8),
+        3..=4 => Driven::new(
             5,
             format!("BCD D{a} K4Y{pair:03o}"),
             format!("if (is_decimal(p->D[{a}])) put_bits(&p->Y[{pair}], 16, digits(p->D[{a}]));"),
-            &[a],
-            outputs(pair, 16),
-        ),
-        5 => new(
+            words([a]),
+        )
+        .and_bits(Y, pair, 16),
+        5 => Driven::new(
             5,
             format!("BCD D{a} D{b}"),
             format!("if (is_decimal(p->D[{a}])) p->D[{b}] = (int16_t)digits(p->D[{a}]);"),
-            &[a, b],
-            Vec::new(),
+            words([a, b]),
         ),
-        6 => new(
+        _ => Driven::new(
             5,
             format!("BIN K4X{wheel:03o} D{b}"),
             format!("from_wheels(&p->D[{b}], get_bits(&p->X[{wheel}], 16));"),
-            &[b],
-            (wheel..wheel + 16).map(|n| (X, n)).collect(),
-        ),
-        7 => new(
+            words([b]),
+        )
+        .and_bits(X, wheel, 16),
+    }
+}
+
+/// Selections of lamps, and blocks of bits.
+fn lamps(which: u32, [a, b]: [u32; 2], relay: u32) -> Driven {
+    let driven = match which {
+        7 => Driven::new(
             7,
             format!("DECO D{a} M{relay} K3"),
             format!("select_lamp(&p->M[{relay}], {LAMPS}, p->D[{a}] & 7);"),
-            &[a],
-            lamps,
+            words([a]),
         ),
-        8 => new(
+        8 => Driven::new(
             7,
             format!("ENCO M{relay} D{b} K3"),
             format!("selected_lamp(&p->D[{b}], &p->M[{relay}], {LAMPS});"),
-            &[b],
-            lamps,
+            words([b]),
         ),
-        9 => new(
+        9 => Driven::new(
             5,
             format!("MOV D{a} K2M{relay}"),
             format!("put_bits(&p->M[{relay}], 8, (uint16_t)p->D[{a}]);"),
-            &[a],
-            lamps,
+            words([a]),
         ),
-        10 => new(
+        _ => Driven::new(
             5,
             format!("MOV K2M{relay} D{b}"),
             format!("p->D[{b}] = (int16_t)get_bits(&p->M[{relay}], 8);"),
-            &[b],
-            lamps,
+            words([b]),
         ),
-        _ => Driven::constant(random),
-    }
+    };
+    driven.and_bits(M, relay, LAMPS)
 }

@@ -4,7 +4,7 @@ use super::{Device, index};
 use super::{compare, display, float, recipe};
 use crate::ladder::Kind;
 use crate::random::Random;
-use rungc_syntax::DeviceClass::D;
+use rungc_syntax::DeviceClass::{self, D};
 
 /// Words that are calculated with, in all kinds that have instructions of this form.
 pub const WORDS: u32 = 200;
@@ -55,6 +55,13 @@ impl Driven {
         Driven { form, ..self }
     }
 
+    /// With bits that it reads or writes, as many from one on.
+    pub fn and_bits(mut self, class: DeviceClass, first: u32, count: u32) -> Self {
+        let bits = (first..first + count).map(|number| (class, number));
+        self.devices.extend(bits);
+        self
+    }
+
     /// With a statement that contacts do not govern.
     pub fn then(self, after: String) -> Self {
         Driven { after, ..self }
@@ -68,6 +75,18 @@ impl Driven {
             format!("MOV K{value} D{a}"),
             format!("p->D[{a}] = {value};"),
             words([a]),
+        )
+    }
+}
+
+impl Driven {
+    /// DMOV of a constant.
+    pub fn long_constant(value: u32, long: u32) -> Self {
+        Driven::new(
+            9,
+            format!("DMOV K{value} D{long}"),
+            format!("put_long(&p->D[{long}], {value});"),
+            words_and_pairs([], [long]),
         )
     }
 }
@@ -92,6 +111,13 @@ pub fn of(kind: Kind) -> Option<fn(&mut Random) -> Driven> {
 /// Registers.
 pub fn words(numbers: impl IntoIterator<Item = u32>) -> Vec<Device> {
     numbers.into_iter().map(|number| (D, number)).collect()
+}
+
+/// Assignments to three relays in a row.
+pub fn three_relays(first: u32, values: [String; 3]) -> String {
+    let values = values.iter().zip(first..);
+    let all = values.map(|(value, relay)| format!("p->M[{relay}] = {value};"));
+    all.collect::<Vec<_>>().join(" ")
 }
 
 /// The registers of some words, and of floats or long words at `pairs`.

@@ -3,7 +3,7 @@
 //! Floats that come from words are calculated with once or enter a filter, so that none ever leaves the range of a
 //! float; those that become words again have few digits.
 
-use super::driven::{Driven, WORDS, words_and_pairs};
+use super::driven::{Driven, WORDS, three_relays, words_and_pairs};
 use crate::random::Random;
 use rungc_syntax::DeviceClass::M;
 
@@ -20,6 +20,28 @@ const RELAYS: u32 = 7000;
 /// Factors of scales.
 const FACTORS: [&str; 4] = ["0.025", "0.0625", "0.1", "0.005"];
 
+fn get(float: u32) -> String {
+    format!("get_float(&p->D[{float}])")
+}
+
+fn put(float: u32, value: &str) -> String {
+    format!("put_float(&p->D[{float}], {value});")
+}
+
+/// Numbers that were drawn.
+struct Drawn {
+    a: u32,
+    b: u32,
+    source: u32,
+    other: u32,
+    scaled: u32,
+    filtered: u32,
+    result: u32,
+    factor: &'static str,
+    offset: u32,
+    relay: u32,
+}
+
 /// Instructions of a rung.
 pub fn random(random: &mut Random) -> Driven {
     let which = random.below(14);
@@ -27,11 +49,34 @@ pub fn random(random: &mut Random) -> Driven {
     let mut of = |first: u32| first + 2 * random.below(COUNT);
     let [source, other] = [0; 2].map(|_| of(SOURCES));
     let (scaled, filtered, result) = (of(SCALED), of(FILTERED), of(RESULTS));
-    let factor = random.choice(&FACTORS);
-    let offset = random.below(100);
-    let relay = RELAYS + random.below(500);
-    let get = |float: u32| format!("get_float(&p->D[{float}])");
-    let put = |float: u32, value: &str| format!("put_float(&p->D[{float}], {value});");
+    let drawn = Drawn {
+        a,
+        b,
+        source,
+        other,
+        scaled,
+        filtered,
+        result,
+        factor: random.choice(&FACTORS),
+        offset: random.below(100),
+        relay: RELAYS + random.below(500),
+    };
+    match which {
+        5..=8 => arithmetic(which, &drawn),
+        0..=12 => analogue(which, &drawn),
+        _ => Driven::constant(random),
+    }
+}
+
+/// An operation of two floats.
+fn arithmetic(which: u32, drawn: &Drawn) -> Driven {
+    let Drawn {
+        source,
+        other,
+        result,
+        offset,
+        ..
+    } = *drawn;
     let operation = |plc: &str, c: &str| {
         Driven::new(
             13,
@@ -40,6 +85,33 @@ pub fn random(random: &mut Random) -> Driven {
             words_and_pairs([], [source, other, result]),
         )
     };
+    match which {
+        5 => operation("DEADD", "+"),
+        6 => operation("DESUB", "-"),
+        7 => operation("DEMUL", "*"),
+        _ => Driven::new(
+            13,
+            format!("DEDIV D{source} E{}.5 D{result}", offset + 1),
+            put(result, &format!("{} / {}.5f", get(source), offset + 1)),
+            words_and_pairs([], [source, result]),
+        ),
+    }
+}
+
+/// Scales, filters, comparisons and limits.
+fn analogue(which: u32, drawn: &Drawn) -> Driven {
+    let Drawn {
+        a,
+        b,
+        source,
+        scaled,
+        filtered,
+        result,
+        factor,
+        offset,
+        relay,
+        ..
+    } = *drawn;
     match which {
         0..=2 => Driven::new(
             31,
@@ -63,15 +135,6 @@ pub fn random(random: &mut Random) -> Driven {
             ),
             words_and_pairs([a, b], [scaled]),
         ),
-        5 => operation("DEADD", "+"),
-        6 => operation("DESUB", "-"),
-        7 => operation("DEMUL", "*"),
-        8 => Driven::new(
-            13,
-            format!("DEDIV D{source} E{}.5 D{result}", offset + 1),
-            put(result, &format!("{} / {}.5f", get(source), offset + 1)),
-            words_and_pairs([], [source, result]),
-        ),
         9..=10 => Driven::new(
             39,
             format!(
@@ -88,27 +151,22 @@ pub fn random(random: &mut Random) -> Driven {
             words_and_pairs([], [scaled, filtered, result]),
         ),
         11 => {
-            let mut driven = Driven::new(
+            let limit = format!("{offset}.0f");
+            let relays = [">", "==", "<"].map(|operator| format!("value {operator} {limit}"));
+            let relays = three_relays(relay, relays);
+            Driven::new(
                 13,
                 format!("DECMP D{filtered} E{offset} M{relay}"),
-                format!(
-                    "const float value = {}; p->M[{relay}] = value > {offset}.0f; \
-                     p->M[{}] = value == {offset}.0f; p->M[{}] = value < {offset}.0f;",
-                    get(filtered),
-                    relay + 1,
-                    relay + 2
-                ),
+                format!("const float value = {}; {relays}", get(filtered)),
                 words_and_pairs([], [filtered]),
-            );
-            driven.devices.extend([0, 1, 2].map(|n| (M, relay + n)));
-            driven
+            )
+            .and_bits(M, relay, 3)
         }
-        12 => Driven::new(
+        _ => Driven::new(
             9,
             format!("LIMIT K{offset} K{} D{a} D{b}", 5000 + offset),
             format!("p->D[{b}] = limit({offset}, {}, p->D[{a}]);", 5000 + offset),
             words_and_pairs([a, b], []),
         ),
-        _ => Driven::constant(random),
     }
 }

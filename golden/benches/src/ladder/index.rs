@@ -1,9 +1,10 @@
 //! Instructions driven by rungs of `index`: tables of words and of long words that index registers address. An index
 //! is a register's lower bits, or a pointer that counts around a table; so none leaves its table.
 
-use super::driven::{Driven, Form, WORDS, words, words_and_pairs};
+use super::driven::{Driven, Form, WORDS, three_relays, words};
 use crate::random::Random;
 use rungc_syntax::DeviceClass::M;
+use std::ops::Range;
 
 /// Pointers, and their number.
 const POINTERS: u32 = 200;
@@ -42,41 +43,13 @@ pub fn random(random: &mut Random) -> Driven {
     let relay = RELAYS + random.below(500);
     let limit = random.below(10_000);
     let sum = SUMS + random.below(SUM_COUNT);
-    // A pointer, or the lower bits of a word.
-    let index = match which % 2 {
-        0 => (
-            pointer,
-            format!("MOV D{pointer} Z{z}"),
-            format!("p->D[{pointer}]"),
-        ),
-        _ => (
-            a,
-            format!("WAND D{a} K15 Z{z}"),
-            format!("(p->D[{a}] & 15)"),
-        ),
-    };
+    let entry = Table::of_words(words_at, which % 2 == 0, pointer, a, z);
+    let long_entry = Table::of_longs(longs_at, a, z);
     let of_table = |steps: u32, list: &str, hand: String, others: &[u32]| {
-        let table = words_at..words_at + TABLE;
-        let all = table.chain([index.0]).chain(others.iter().copied());
-        let list = format!(
-            "{};{}",
-            index.1,
-            list.replace('@', &format!("D{words_at}Z{z}"))
-        );
-        let hand = hand.replace('@', &format!("p->D[{words_at} + {}]", index.2));
-        Driven::new(5 + steps, list, hand, words(all))
+        entry.driven(steps, list, &hand, others.iter().copied())
     };
     let of_longs = |steps: u32, list: &str, hand: String, others: &[u32]| {
-        let longs = others.iter().flat_map(|&n| [n, n + 1]);
-        let all = (longs_at..longs_at + LONG_TABLE).chain([a]).chain(longs);
-        let list = list.replace('@', &format!("D{longs_at}Z{z}"));
-        let hand = hand.replace('@', &format!("&p->D[{longs_at} + (p->D[{a}] & 30)]"));
-        Driven::new(
-            7 + steps,
-            format!("WAND D{a} K30 Z{z};{list}"),
-            hand,
-            words(all),
-        )
+        long_entry.driven(steps, list, &hand, others.iter().flat_map(|&n| [n, n + 1]))
     };
     match which {
         0..=2 => of_table(5, &format!("MOV @ D{b}"), format!("p->D[{b}] = @;"), &[b]),
@@ -89,15 +62,9 @@ pub fn random(random: &mut Random) -> Driven {
         ),
         7 => of_table(3, "INC @", "@ = (int16_t)(@ + 1);".to_string(), &[]),
         8 => {
-            let hand = format!(
-                "const int16_t entry = @; p->M[{relay}] = entry > {limit}; p->M[{}] = entry == {limit}; \
-                 p->M[{}] = entry < {limit};",
-                relay + 1,
-                relay + 2
-            );
-            let mut driven = of_table(7, &format!("CMP @ K{limit} M{relay}"), hand, &[]);
-            driven.devices.extend([0, 1, 2].map(|n| (M, relay + n)));
-            driven
+            let compared = [">", "==", "<"].map(|operator| format!("entry {operator} {limit}"));
+            let hand = format!("const int16_t entry = @; {}", three_relays(relay, compared));
+            of_table(7, &format!("CMP @ K{limit} M{relay}"), hand, &[]).and_bits(M, relay, 3)
         }
         9..=10 => of_longs(
             9,
@@ -121,13 +88,73 @@ pub fn random(random: &mut Random) -> Driven {
         14 => count_around(pointer),
         _ => match random.chance(0.5) {
             true => Driven::constant(random),
-            false => Driven::new(
-                9,
-                format!("DMOV K{} D{long}", limit * 1000),
-                format!("put_long(&p->D[{long}], {});", limit * 1000),
-                words_and_pairs([], [long]),
-            ),
+            false => Driven::long_constant(limit * 1000, long),
         },
+    }
+}
+
+/// A table, and the entry that an index leads to.
+struct Table {
+    words: Range<u32>,
+    /// The register that the index comes from.
+    register: u32,
+    /// The instruction that puts it into the index register, and its steps.
+    index: (String, u32),
+    /// The entry, in the list and in C.
+    entry: (String, String),
+}
+
+impl Table {
+    /// A table of words, whose index is a pointer or the lower bits of a word.
+    fn of_words(first: u32, by_pointer: bool, pointer: u32, a: u32, z: u32) -> Self {
+        let (register, index, offset) = match by_pointer {
+            true => (
+                pointer,
+                format!("MOV D{pointer} Z{z}"),
+                format!("p->D[{pointer}]"),
+            ),
+            false => (
+                a,
+                format!("WAND D{a} K15 Z{z}"),
+                format!("(p->D[{a}] & 15)"),
+            ),
+        };
+        Table {
+            words: first..first + TABLE,
+            register,
+            index: (index, 5),
+            entry: (format!("D{first}Z{z}"), format!("p->D[{first} + {offset}]")),
+        }
+    }
+
+    /// A table of long words, whose index is the lower bits of a word without the last one.
+    fn of_longs(first: u32, a: u32, z: u32) -> Self {
+        Table {
+            words: first..first + LONG_TABLE,
+            register: a,
+            index: (format!("WAND D{a} K30 Z{z}"), 7),
+            entry: (
+                format!("D{first}Z{z}"),
+                format!("&p->D[{first} + (p->D[{a}] & 30)]"),
+            ),
+        }
+    }
+
+    /// An instruction with the entry, which is `@` in it, and with other registers.
+    fn driven(
+        &self,
+        steps: u32,
+        list: &str,
+        hand: &str,
+        others: impl Iterator<Item = u32>,
+    ) -> Driven {
+        let all = self.words.clone().chain([self.register]).chain(others);
+        Driven::new(
+            self.index.1 + steps,
+            format!("{};{}", self.index.0, list.replace('@', &self.entry.0)),
+            hand.replace('@', &self.entry.1),
+            words(all),
+        )
     }
 }
 

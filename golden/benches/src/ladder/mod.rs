@@ -9,7 +9,7 @@
 //! | `control` | `contacts` with PID loops and limits, which emitted C calls the runtime for |
 //! | `sequence` | step ladders: rings of states with coils, timers and interlocks |
 //! | `index` | `contacts` with tables of words and long words behind index registers |
-//! | `recipe` | `contacts` with blocks that are copied, filled, cleared and shifted, half of them behind index registers |
+//! | `recipe` | `contacts` with blocks that are copied, filled, cleared, shifted, many behind index registers |
 //! | `display` | `contacts` with digits for lamps and from thumbwheels, selections of lamps, words as bits |
 //! | `compare` | `contacts` with comparison contacts, CMP, ZCP, limits with hysteresis |
 //! | `float` | `contacts` with scaled analogue values, filters, arithmetic of floats, LIMIT |

@@ -2,7 +2,6 @@
 //! filled and shifted. A table has eight recipes; the offset of one in use is a register's bits, or a pointer that
 //! counts from recipe to recipe.
 
-use super::Device;
 use super::driven::{Driven, WORDS, words};
 use crate::random::Random;
 use rungc_syntax::DeviceClass::M;
@@ -27,58 +26,110 @@ pub const REGISTERS: u32 = TABLES + TABLE_COUNT * TABLE;
 /// Relays that are shifted and reset.
 const RELAYS: u32 = 7000;
 
+/// Numbers that were drawn.
+struct Drawn {
+    a: u32,
+    b: u32,
+    count: u32,
+    block: u32,
+    table: u32,
+    relay: u32,
+    queue: u32,
+    pointer: u32,
+    value: u32,
+    z: u32,
+}
+
 /// Instructions of a rung.
 pub fn random(random: &mut Random) -> Driven {
     let which = random.below(16);
     let [a, b] = [0; 2].map(|_| random.below(WORDS));
-    let count = random.between(10, 50);
-    let block = BLOCKS + random.below(BLOCK_COUNT);
-    let table = TABLES + TABLE * random.below(TABLE_COUNT);
-    let relay = RELAYS + random.below(200);
-    let queue = QUEUES + QUEUE * random.below(2);
-    let pointer = POINTERS + random.below(POINTER_COUNT);
-    let value = random.below(10_000);
-    let z = random.below(8);
-    let of_blocks = |steps, list: String, hand: String, blocks: &[(u32, u32)]| {
-        let all = blocks
-            .iter()
-            .flat_map(|&(first, count)| first..first + count);
-        Driven::new(steps, list, hand, words(all))
+    let drawn = Drawn {
+        a,
+        b,
+        count: random.between(10, 50),
+        block: BLOCKS + random.below(BLOCK_COUNT),
+        table: TABLES + TABLE * random.below(TABLE_COUNT),
+        relay: RELAYS + random.below(200),
+        queue: QUEUES + QUEUE * random.below(2),
+        pointer: POINTERS + random.below(POINTER_COUNT),
+        value: random.below(10_000),
+        z: random.below(8),
     };
-    let of_recipe = |list: &str, hand: &str| {
-        let (register, index, offset) = match which % 2 {
-            0 => (
-                pointer,
-                format!("MOV D{pointer} Z{z}"),
-                format!("p->D[{pointer}]"),
-            ),
-            _ => (
-                a,
-                format!("WAND D{a} K112 Z{z}"),
-                format!("(p->D[{a}] & 112)"),
-            ),
-        };
-        of_blocks(
-            12,
-            format!("{index};{}", list.replace('@', &format!("D{table}Z{z}"))),
-            hand.replace('@', &format!("&p->D[{table} + {offset}]")),
-            &[(table, TABLE), (register, 1), (block, RECIPE)],
-        )
-    };
-    let bits = |driven: Driven, first: u32, count: u32| with_bits(driven, first, count);
     match which {
-        0..=2 => of_recipe(
-            &format!("BMOV @ D{block} K{RECIPE}"),
-            &format!("memcpy(&p->D[{block}], @, {RECIPE} * sizeof *p->D);"),
+        0..=5 => recipe(which, &drawn),
+        6..=14 => blocks(which, &drawn),
+        _ => match random.chance(0.4) {
+            true => next_recipe(drawn.pointer),
+            false => Driven::constant(random),
+        },
+    }
+}
+
+fn of_blocks(steps: u32, list: String, hand: String, blocks: &[(u32, u32)]) -> Driven {
+    let all = blocks
+        .iter()
+        .flat_map(|&(first, count)| first..first + count);
+    Driven::new(steps, list, hand, words(all))
+}
+
+/// A recipe that is loaded, stored or filled.
+fn recipe(which: u32, drawn: &Drawn) -> Driven {
+    let Drawn {
+        a,
+        block,
+        table,
+        pointer,
+        value,
+        z,
+        ..
+    } = *drawn;
+    let (register, index, offset) = match which % 2 {
+        0 => (
+            pointer,
+            format!("MOV D{pointer} Z{z}"),
+            format!("p->D[{pointer}]"),
         ),
-        3..=4 => of_recipe(
-            &format!("BMOV D{block} @ K{RECIPE}"),
-            &format!("memcpy(@, &p->D[{block}], {RECIPE} * sizeof *p->D);"),
+        _ => (
+            a,
+            format!("WAND D{a} K112 Z{z}"),
+            format!("(p->D[{a}] & 112)"),
         ),
-        5 => of_recipe(
-            &format!("FMOV K{value} @ K{RECIPE}"),
-            &format!("fill(@, {RECIPE}, {value});"),
+    };
+    let (first, at) = (
+        format!("D{table}Z{z}"),
+        format!("&p->D[{table} + {offset}]"),
+    );
+    let (list, hand) = match which {
+        0..=2 => (
+            format!("BMOV {first} D{block} K{RECIPE}"),
+            format!("memcpy(&p->D[{block}], {at}, {RECIPE} * sizeof *p->D);"),
         ),
+        3..=4 => (
+            format!("BMOV D{block} {first} K{RECIPE}"),
+            format!("memcpy({at}, &p->D[{block}], {RECIPE} * sizeof *p->D);"),
+        ),
+        _ => (
+            format!("FMOV K{value} {first} K{RECIPE}"),
+            format!("fill({at}, {RECIPE}, {value});"),
+        ),
+    };
+    let registers = [(table, TABLE), (register, 1), (block, RECIPE)];
+    of_blocks(12, format!("{index};{list}"), hand, &registers)
+}
+
+/// Blocks, shifts and queues.
+fn blocks(which: u32, drawn: &Drawn) -> Driven {
+    let Drawn {
+        a,
+        b,
+        count,
+        block,
+        relay,
+        queue,
+        ..
+    } = *drawn;
+    match which {
         6 => of_blocks(
             7,
             format!("BMOV D{a} D{block} K{count}"),
@@ -103,30 +154,21 @@ pub fn random(random: &mut Random) -> Driven {
             format!("memset(&p->D[{block}], 0, {count} * sizeof *p->D);"),
             &[(block, count)],
         ),
-        10 => bits(
-            of_blocks(
-                5,
-                format!("ZRST M{relay} M{}", relay + count - 1),
-                format!("memset(&p->M[{relay}], 0, {count});"),
-                &[],
-            ),
-            relay,
-            count,
-        ),
-        11 => bits(
-            bits(
-                of_blocks(
-                    9,
-                    format!("SFTL M{b} M{relay} K{count} K1"),
-                    format!("shift(&p->M[{relay}], {count}, p->M[{b}]);"),
-                    &[],
-                ),
-                relay,
-                count,
-            ),
-            b,
-            1,
-        ),
+        10 => of_blocks(
+            5,
+            format!("ZRST M{relay} M{}", relay + count - 1),
+            format!("memset(&p->M[{relay}], 0, {count});"),
+            &[],
+        )
+        .and_bits(M, relay, count),
+        11 => of_blocks(
+            9,
+            format!("SFTL M{b} M{relay} K{count} K1"),
+            format!("shift(&p->M[{relay}], {count}, p->M[{b}]);"),
+            &[],
+        )
+        .and_bits(M, relay, count)
+        .and_bits(M, b, 1),
         12 => of_blocks(
             9,
             format!("WSFL D{a} D{block} K{RECIPE} K1"),
@@ -143,23 +185,13 @@ pub fn random(random: &mut Random) -> Driven {
             format!("append(&p->D[{queue}], {QUEUE}, p->D[{a}]);"),
             &[(a, 1), (queue, QUEUE)],
         ),
-        14 => of_blocks(
+        _ => of_blocks(
             7,
             format!("SFRD D{queue} D{b} K{QUEUE}"),
             format!("take(&p->D[{queue}], {QUEUE}, &p->D[{b}]);"),
             &[(queue, QUEUE), (b, 1)],
         ),
-        _ => match random.chance(0.4) {
-            true => next_recipe(pointer),
-            false => Driven::constant(random),
-        },
     }
-}
-
-fn with_bits(mut driven: Driven, first: u32, count: u32) -> Driven {
-    let bits = (first..first + count).map(|number| -> Device { (M, number) });
-    driven.devices.extend(bits);
-    driven
 }
 
 /// A pointer that counts from recipe to recipe.

@@ -343,7 +343,7 @@ fn hand_sequence(sequence: &Sequence, i: usize, out: &mut String) {
         }
         out.push_str(" break;\n");
     }
-    out.push_str("  }\n}\n/* Runs the active state; true if a later one is active now, which runs in the same scan. */\n");
+    out.push_str("  }\n}\n/* Runs the active state; true if a later one is active now, which runs, too. */\n");
     let _ = writeln!(
         out,
         "static bool step{i}(struct plc *p, struct sequence *s) {{\n  switch (s->state) {{"
