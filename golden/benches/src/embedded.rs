@@ -2,7 +2,7 @@
 
 use crate::ladder::{Kind, Ladder};
 use crate::problem::{Problem, Result};
-use crate::subject::{self, CSubject, Code, RustSubject};
+use crate::subject::{self, CSubject, Code, RustSubject, Source, calls_runtime};
 use crate::table::{Cell, Table};
 use crate::tools;
 use rungc_firmware::target::CORTEX_M4F;
@@ -116,11 +116,30 @@ pub fn measure(
     level: Level,
     count: bool,
 ) -> Result<Vec<Measured>> {
+    measure_all(ladder, Some(ladder), codes, level, count)
+}
+
+/// The same of a program that nobody wrote by hand.
+pub fn measure_emitted(
+    program: &dyn Source,
+    codes: &[Code],
+    level: Level,
+) -> Result<Vec<Measured>> {
+    measure_all(program, None, codes, level, true)
+}
+
+fn measure_all(
+    program: &dyn Source,
+    ladder: Option<&Ladder>,
+    codes: &[Code],
+    level: Level,
+    count: bool,
+) -> Result<Vec<Measured>> {
     let folder = board_folder()?;
     let folder = folder.path();
     let builds: Vec<Build> = codes
         .iter()
-        .map(|&code| build(ladder, code, level, folder))
+        .map(|&code| build(program, ladder, code, level, folder))
         .collect();
     let mut sums = Vec::new();
     let mut all = Vec::new();
@@ -155,16 +174,26 @@ pub fn measure(
     }
 }
 
-fn build(ladder: &Ladder, code: Code, level: Level, folder: &Path) -> Build {
+fn build(
+    program: &dyn Source,
+    ladder: Option<&Ladder>,
+    code: Code,
+    level: Level,
+    folder: &Path,
+) -> Build {
     let prefix = match code {
         Code::Hand => "hand",
         Code::C => "c",
         Code::Lanes => "lanes",
         Code::Rust => "rust",
     };
-    let parts = match code {
-        Code::Rust => build_rust(ladder, prefix, level, folder),
-        _ => build_c(ladder, code, prefix, level, folder),
+    let parts = match (code, ladder) {
+        (Code::Rust, _) => build_rust(program, prefix, level, folder),
+        (Code::C, _) => CSubject::emitted(program, prefix, folder)
+            .and_then(|subject| build_c(&subject, prefix, level, calls_runtime(program)?)),
+        (_, Some(ladder)) => CSubject::new(code, ladder, prefix, folder)
+            .and_then(|subject| build_c(&subject, prefix, level, false)),
+        (_, None) => Err(Problem::Wrong("there is no program by hand".to_string())),
     };
     Build {
         code,
@@ -174,31 +203,29 @@ fn build(ladder: &Ladder, code: Code, level: Level, folder: &Path) -> Build {
 }
 
 fn build_c(
-    ladder: &Ladder,
-    code: Code,
+    subject: &CSubject,
     prefix: &str,
     level: Level,
-    folder: &Path,
+    runtime: bool,
 ) -> Result<(Vec<PathBuf>, String)> {
     tools::need(&[CORTEX_M4F.cc])?;
-    let subject = CSubject::new(code, ladder, prefix, folder)?;
     let options: Vec<&str> = machine().chain([level.option()]).collect();
     let mut objects = subject.compile(CORTEX_M4F.cc, &options)?;
     objects.program.push(objects.adaptor);
-    if code == Code::C && subject::calls_runtime(ladder)? {
+    if runtime {
         objects.program.push(tools::runtime(Some(&CORTEX_M4F))?);
     }
     Ok((objects.program, format!("{prefix}_scan")))
 }
 
 fn build_rust(
-    ladder: &Ladder,
+    program: &dyn Source,
     prefix: &str,
     level: Level,
     folder: &Path,
 ) -> Result<(Vec<PathBuf>, String)> {
     let cargo = tools::embedded_cargo(CORTEX_M4F.triple)?;
-    let subject = RustSubject::new(ladder, prefix, folder)?;
+    let subject = RustSubject::new(program, prefix, folder)?;
     let library = subject.build(cargo, CORTEX_M4F.rustc_name(), level.rust())?;
     Ok((vec![library], format!("{prefix}_one_scan")))
 }

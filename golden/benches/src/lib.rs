@@ -17,6 +17,7 @@ pub mod problem;
 pub mod pulse_counts;
 pub mod pulses;
 pub mod random;
+pub mod real;
 pub mod subject;
 pub mod suites;
 pub mod table;

@@ -9,7 +9,7 @@ use rungc_benches::ladder::Kind;
 use rungc_benches::problem::Result;
 use rungc_benches::subject::Code;
 use rungc_benches::table::Table;
-use rungc_benches::{checks, embedded, interp, page, pulse_counts, pulses, suites, tools};
+use rungc_benches::{checks, embedded, interp, page, pulse_counts, pulses, real, suites, tools};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -32,6 +32,9 @@ struct Args {
     /// Kinds of program for `size` and `icount`; by default all.
     #[arg(long, value_enum, value_delimiter = ',', value_name = "LIST")]
     kinds: Vec<Kind>,
+    /// Folders of projects, for `real`, which measures the largest programs in them.
+    #[arg(long, value_delimiter = ',', value_name = "LIST")]
+    projects: Vec<PathBuf>,
     /// Leave out code whose build takes long: `lanes` is emitted C for many instances.
     #[arg(long, value_enum, value_delimiter = ',', value_name = "LIST")]
     without: Vec<Slow>,
@@ -81,6 +84,8 @@ enum Section {
     Size,
     /// Instructions of a scan on a microcontroller.
     Icount,
+    /// Instructions of a scan of real programs on a microcontroller.
+    Real,
     /// Time and memory of compiling.
     Compile,
     /// Growth of checking with programs that are hard to check.
@@ -120,6 +125,19 @@ impl Section {
                 embedded::count_table(args.kinds(), embedded_sizes(quick), args.codes())?,
                 pulse_counts::table()?,
             ]),
+            Section::Real if args.projects.is_empty() => {
+                eprintln!("real programs are not measured: --projects names none");
+                Ok(Vec::new())
+            }
+            Section::Real => {
+                let codes: Vec<Code> = args
+                    .codes()
+                    .iter()
+                    .copied()
+                    .filter(|code| *code != Code::Hand)
+                    .collect();
+                Ok(vec![real::table(&args.projects, &codes)?])
+            }
             Section::Compile => Ok(vec![
                 compile::table(compiled_sizes(quick))?,
                 compile::native_table(16_000)?,

@@ -23,6 +23,9 @@ const LANES_ADAPTOR: &str = include_str!("../templates/lanes.c");
 /// The adaptor of emitted Rust.
 const RUST_ADAPTOR: &str = include_str!("../templates/adaptor.rs");
 
+/// Number of inputs, of which one changes before each scan (`templates/subject.h`).
+pub const INPUTS: usize = (TERMINALS + FLAGS) as usize;
+
 /// Distance between the inputs that change before successive scans: all of them have their turn
 /// (`templates/subject.h`).
 pub const INPUT_STRIDE: usize = 37;
@@ -89,15 +92,51 @@ pub struct Objects {
     pub adaptor: PathBuf,
 }
 
+/// A program that can be emitted and observed.
+pub trait Source {
+    /// The program as the compiler's IR, with names that begin with `name`.
+    ///
+    /// # Errors
+    /// It does not compile.
+    fn module(&self, name: &str) -> Result<Module>;
+
+    /// What distinguishes it from others, as part of a crate's name.
+    fn label(&self) -> String;
+
+    /// The devices that change from scan to scan, [`INPUTS`] of them.
+    fn inputs(&self) -> Vec<Device>;
+
+    /// The devices that are compared.
+    fn devices(&self) -> Vec<Device>;
+}
+
+impl Source for Ladder {
+    fn module(&self, name: &str) -> Result<Module> {
+        module(self, name)
+    }
+
+    fn label(&self) -> String {
+        format!("{}_{}", self.kind.name(), self.steps)
+    }
+
+    fn inputs(&self) -> Vec<Device> {
+        inputs().collect()
+    }
+
+    fn devices(&self) -> Vec<Device> {
+        Ladder::devices(self)
+    }
+}
+
 /// The program as the compiler's IR, with names that begin with `name`.
 pub fn module(ladder: &Ladder, name: &str) -> Result<Module> {
     module_of(&ladder.list(), name)
 }
 
 /// Returns true if emitted C of a program calls the runtime.
-pub fn calls_runtime(ladder: &Ladder) -> Result<bool> {
+pub fn calls_runtime(program: &dyn Source) -> Result<bool> {
     let mut calls = false;
-    for function in &module(ladder, "program")?.functions {
+    for function in &program.module("program")?.functions {
         walk::statements(&function.body, &mut |stmt| {
             calls |= walk::calls_runtime(stmt)
         });
@@ -134,18 +173,18 @@ fn parts(class: DeviceClass) -> &'static [(&'static str, u32)] {
     match class {
         DeviceClass::T => &[(".done", 1)],
         DeviceClass::C => &[(".done", 1), (".value", 2)],
-        DeviceClass::D => &[("", 2)],
+        DeviceClass::D | DeviceClass::R => &[("", 2)],
         _ => &[("", 1)],
     }
 }
 
 /// Every part that is compared: where it is, by where its device is, and its bytes.
 fn compared(
-    ladder: &Ladder,
+    program: &dyn Source,
     place: impl Fn(Device) -> Option<String>,
 ) -> Result<Vec<(String, u32)>> {
     let mut all = Vec::new();
-    for device in ladder.devices() {
+    for device in program.devices() {
         let Some(place) = place(device) else {
             return Err(Problem::Wrong(format!("{device:?} is not stored")));
         };
@@ -167,7 +206,11 @@ struct CAdaptor<'a> {
 }
 
 impl CAdaptor<'_> {
-    fn text(&self, ladder: &Ladder, place: impl Fn(Device) -> Option<String>) -> Result<String> {
+    fn text(
+        &self,
+        program: &dyn Source,
+        place: impl Fn(Device) -> Option<String>,
+    ) -> Result<String> {
         let (prefix, plc_type) = (self.prefix, &self.plc_type);
         let mut out = format!(
             "#include \"{}\"\n#include \"subject.h\"\n\nstatic {plc_type} plc;\n",
@@ -176,7 +219,7 @@ impl CAdaptor<'_> {
         // Writing to a String does not fail.
         let _ = writeln!(out, "{}static unsigned char nowhere;", self.memory);
         out.push_str("static unsigned char *const inputs[INPUTS] = {\n");
-        for device in inputs() {
+        for device in program.inputs() {
             // Writing to a String does not fail.
             let _ = match place(device) {
                 Some(place) => writeln!(out, "    (unsigned char *)&plc.{place},"),
@@ -184,7 +227,7 @@ impl CAdaptor<'_> {
             };
         }
         out.push_str("};\nstatic const struct device devices[] = {\n");
-        let devices = compared(ladder, place)?;
+        let devices = compared(program, place)?;
         for (place, bytes) in &devices {
             let _ = writeln!(out, "    {{&plc.{place}, {bytes}}},");
         }
@@ -234,14 +277,14 @@ fn hand(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
 }
 
 /// C that rungc emits.
-fn emitted_c(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
+fn emitted_c(program: &dyn Source, prefix: &str, folder: &Path) -> Result<CSubject> {
     let folder = folder.join(prefix);
-    let module = module(ladder, prefix)?;
-    let mut program = Vec::new();
+    let module = program.module(prefix)?;
+    let mut sources = Vec::new();
     for file in rungc_codegen_c::emit(&module, &rungc_codegen_c::Options::default()) {
         tools::write(&folder.join(&file.path), &file.contents)?;
         if file.path.ends_with(".c") {
-            program.push(file.path);
+            sources.push(file.path);
         }
     }
     let members = rungc_codegen_c::Members::new(&module);
@@ -253,12 +296,12 @@ fn emitted_c(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
         reset: format!("{prefix}_init(&plc);"),
         scan: format!("{prefix}_scan(&plc, now_ms, 0);"),
     };
-    let text = adaptor.text(ladder, |(class, number)| members.of(class, number))?;
+    let text = adaptor.text(program, |(class, number)| members.of(class, number))?;
     tools::write(&folder.join("adaptor.c"), &text)?;
     Ok(CSubject {
         prefix: prefix.to_string(),
         folder,
-        program,
+        program: sources,
     })
 }
 
@@ -310,18 +353,18 @@ fn emitted_lanes(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubjec
     })
 }
 
-fn rust_adaptor(ladder: &Ladder, module: &Module, prefix: &str) -> Result<String> {
+fn rust_adaptor(program: &dyn Source, module: &Module, prefix: &str) -> Result<String> {
     let members = rungc_codegen_rust::Members::new(module);
     let place = |(class, number): Device| members.of(class, number);
     let mut input_list = String::new();
-    for device in inputs() {
+    for device in program.inputs() {
         // Writing to a String does not fail.
         let _ = match place(device) {
             Some(place) => writeln!(input_list, "    &raw mut (*PLC).{place} as *mut u8,"),
             None => writeln!(input_list, "    &raw mut NOWHERE,"),
         };
     }
-    let devices = compared(ladder, place)?;
+    let devices = compared(program, place)?;
     let mut device_list = String::new();
     for (place, bytes) in &devices {
         let _ = writeln!(
@@ -332,7 +375,7 @@ fn rust_adaptor(ladder: &Ladder, module: &Module, prefix: &str) -> Result<String
     Ok(RUST_ADAPTOR
         .replace("@PROGRAM@", &format!("{prefix}::{}", members.type_name()))
         .replace("@PREFIX@", prefix)
-        .replace("@INPUTS@", &inputs().count().to_string())
+        .replace("@INPUTS@", &INPUTS.to_string())
         .replace("@INPUT_LIST@", &input_list)
         .replace("@DEVICES@", &devices.len().to_string())
         .replace("@DEVICE_LIST@", &device_list))
@@ -347,6 +390,11 @@ impl CSubject {
             Code::Lanes => emitted_lanes(ladder, prefix, folder),
             Code::Rust => Err(Problem::Wrong("Rust is not C".to_string())),
         }
+    }
+
+    /// Writes the files of a program that rungc emits.
+    pub fn emitted(program: &dyn Source, prefix: &str, folder: &Path) -> Result<Self> {
+        emitted_c(program, prefix, folder)
     }
 
     /// Compiles the program with these options, the adaptor likewise.
@@ -375,9 +423,9 @@ impl CSubject {
 
 impl RustSubject {
     /// Rust that rungc emits, as a static library's crate.
-    pub fn new(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<Self> {
+    pub fn new(program: &dyn Source, prefix: &str, folder: &Path) -> Result<Self> {
         let folder = folder.join(prefix);
-        let module = module(ladder, prefix)?;
+        let module = program.module(prefix)?;
         let options = rungc_codegen_rust::Options {
             main: false,
             servers: false,
@@ -393,14 +441,14 @@ impl RustSubject {
             };
             tools::write(&folder.join("program").join(&file.path), &text)?;
         }
-        let name = format!("{prefix}_{}_{}", ladder.kind.name(), ladder.steps);
+        let name = format!("{prefix}_{}", program.label());
         let manifest = format!(
             "[package]\nname = {name:?}\nedition = \"2024\"\n\n[lib]\npath = \"lib.rs\"\ncrate-type = [\"staticlib\"]\n\n\
              [dependencies]\n{prefix} = {{ path = \"program\" }}\nrungc-rt = {{ path = {RUNTIME:?} }}\n\n\
              [profile.release]\npanic = \"abort\"\n\n[workspace]\nmembers = [\"program\"]\n"
         );
         tools::write(&folder.join("Cargo.toml"), &manifest)?;
-        let adaptor = rust_adaptor(ladder, &module, prefix)?;
+        let adaptor = rust_adaptor(program, &module, prefix)?;
         tools::write(&folder.join("lib.rs"), &adaptor)?;
         Ok(RustSubject { folder, name })
     }
