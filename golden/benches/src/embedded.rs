@@ -193,7 +193,7 @@ fn build(
             .and_then(|subject| build_c(&subject, prefix, level, calls_runtime(program)?)),
         (_, Some(ladder)) => CSubject::new(code, ladder, prefix, folder)
             .and_then(|subject| build_c(&subject, prefix, level, false)),
-        (_, None) => Err(Problem::Wrong("there is no program by hand".to_string())),
+        (_, None) => Err(Problem::Wrong("no program was written by hand".to_string())),
     };
     Build {
         code,

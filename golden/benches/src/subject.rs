@@ -100,7 +100,7 @@ pub trait Source {
     /// It does not compile.
     fn module(&self, name: &str) -> Result<Module>;
 
-    /// What distinguishes it from others, as part of a crate's name.
+    /// Its name among others, as part of a crate's.
     fn label(&self) -> String;
 
     /// The devices that change from scan to scan, [`INPUTS`] of them.

@@ -9,7 +9,7 @@ use rungc_syntax::DeviceClass::{self, D};
 /// Words that are calculated with, in all kinds that have instructions of this form.
 pub const WORDS: u32 = 200;
 
-/// Where instructions stand in a rung.
+/// Position of instructions in a rung.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Form {
     /// Behind contacts, executed while these conduct.
@@ -23,7 +23,7 @@ pub enum Form {
 /// Instructions that belong together.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Driven {
-    /// Where they stand.
+    /// Their position in a rung.
     pub form: Form,
     /// Steps, as these programs count them.
     pub steps: u32,

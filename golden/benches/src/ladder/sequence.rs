@@ -241,7 +241,7 @@ impl State {
         }
     }
 
-    /// What the hand-written C does while it is active, `at` its place in the ring of these states.
+    /// The case of the hand-written `switch`; `at` is its place in the ring of these states.
     fn hand(&self, out: &mut String, at: usize, ring: &[State]) {
         // Writing to a String does not fail.
         let _ = writeln!(out, "  case {at}:");

@@ -45,7 +45,7 @@ fn implementations_do_the_same() {
     programs.push((Kind::Mixed, 20_000));
     if let Ok(only) = std::env::var("RUNGC_BENCH_KIND") {
         programs.retain(|(kind, _)| kind.name() == only);
-        assert!(!programs.is_empty(), "there is no kind {only}");
+        assert!(!programs.is_empty(), "no kind is called {only}");
     }
     for (kind, steps) in programs {
         let ladder = Ladder::new(kind, steps);
