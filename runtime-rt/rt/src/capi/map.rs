@@ -140,13 +140,15 @@ impl Map {
 
     #[cold]
     fn find(&self, class: Class, number: u32) -> Found {
-        let area = self.index_of(class, number);
-        if let Some(found) = area.and_then(|i| self.at(&self.areas()[i], class, number)) {
+        if let Some(found) = self.find_stored(class, number) {
             return found;
         }
-        if let Some((class, number)) = self.alias(class, number) {
-            return self.find(class, number);
+        // No index register is another name of something else.
+        let alias = self.alias(class, number);
+        if let Some(found) = alias.and_then(|(class, number)| self.find_stored(class, number)) {
+            return found;
         }
+        let (class, number) = alias.unwrap_or((class, number));
         let layout = self.layout();
         let ranges = elements(layout.ranges, layout.range_count);
         let after = ranges.partition_point(|r| (r.class, r.first) <= (class, number));
@@ -155,6 +157,12 @@ impl Map {
             Some(_) => Found::Elsewhere,
             None => Found::Nowhere,
         }
+    }
+
+    /// A device that is stored under its own name.
+    fn find_stored(&self, class: Class, number: u32) -> Option<Found> {
+        let area = self.areas().get(self.index_of(class, number)?)?;
+        self.at(area, class, number)
     }
 
     /// The word of a device, however it is stored; NULL if the program does not look at it.
@@ -370,16 +378,14 @@ impl Plc for Map {
     }
 
     fn stored_run(&self, class: Class, number: u32) -> Option<StoredRun> {
-        if let Some((class, number)) = self.alias(class, number) {
-            let run = self.stored_run(class, number)?;
-            return Some(StoredRun { count: 1, ..run });
-        }
+        let alias = self.alias(class, number);
+        let (class, number) = alias.unwrap_or((class, number));
         let index = self.index_of(class, number)?;
         let areas = self.areas();
-        let area = &areas[index];
-        // Devices in columns are found one by one.
+        let area = areas.get(index)?;
+        // Other names, and devices in columns, are found one by one.
         let count = match area.columns {
-            0 | 1 => area.first + area.count - number,
+            0 | 1 if alias.is_none() => area.first + area.count - number,
             _ => 1,
         };
         // Areas that an operand names are counted from the last.
