@@ -61,9 +61,8 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     }
     evidence::check(args)?;
     let subject = subject::one(&args.input, cx)?;
-    if args.write_test.is_some() {
-        check_name(&subject.file, "a test file")?;
-    }
+    let mut written = args.write_test.iter();
+    written.try_for_each(|_| check_name(&subject.file, "a test file"))?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let read = match read(&subject, &mut reporter) {
         Ok(read) => read,

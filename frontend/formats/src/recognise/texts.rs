@@ -9,6 +9,13 @@ const BYTES: &str = "name the file that the bytes are of; `xxd -r` and `base64 -
 const WRITING: &str = "copy the instruction list in it into a text file";
 const BUILT: &str = "rungc compiles programs of PLCs: name the program";
 
+/// Returns true if lines are the rows of a table with instructions. A row of a drawn ladder has wires.
+fn is_markdown(lines: &[&str]) -> bool {
+    let is_row = |line: &&&str| line.starts_with('|') && !line.contains("--");
+    let mut rows = lines.iter().filter(is_row);
+    rows.any(|line| line.split('|').any(|cell| is_basic(cell.trim())))
+}
+
 /// A text whose lines may look like instructions, but which cannot be read as a program.
 pub(super) fn spoilt(lines: &[&str]) -> Option<Recognised> {
     let first = *lines.first()?;
@@ -85,10 +92,7 @@ pub(super) fn other(name: &str, text: &str, lines: &[&str]) -> Option<Recognised
             "name the program that it was made of",
         );
     }
-    // A row of a drawn ladder has wires.
-    let is_row = |line: &&&str| line.starts_with('|') && !line.contains("--");
-    let mut rows = lines.iter().filter(is_row);
-    if rows.any(|line| line.split('|').any(|cell| is_basic(cell.trim()))) {
+    if is_markdown(lines) {
         return is(
             "a table (Markdown)",
             "write a line for each row, such as `LD X000`, or save the table as CSV",
