@@ -15,6 +15,7 @@ use rungc_models::Model;
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
+use std::ops::Range;
 use typed_index_collections::TiSlice;
 
 /// Devices that an expression or a statement uses: one, or several in a row.
@@ -208,15 +209,82 @@ fn shows_outputs(call: &Call) -> bool {
 /// Last output of any model (Y377).
 const LAST_OUTPUT: u32 = 0o377;
 
+/// Outputs for the directions of a model's axes, one for each of the outputs to which axes are bound
+/// (hm-motion-controller §5.7.2).
+pub fn axis_directions(model: &Model) -> Range<u32> {
+    const FIRST: u32 = 0o10;
+    FIRST..FIRST + model.pulses.outputs().len() as u32
+}
+
+/// Outputs Y on which ZRN and DSZR give their clear signals: the usual one, unless a register that may change names
+/// another.
+fn clear_signals(module: &Module, call: &Call) -> Vec<(DeviceClass, u32, u32)> {
+    let all = vec![(DeviceClass::Y, 0, LAST_OUTPUT)];
+    let operand = match call.function {
+        RtFn::Zrn => 3,
+        _ => 2,
+    };
+    let Some(Arg::Device { place, .. }) = call.args.get(operand) else {
+        return all;
+    };
+    let outputs = module.model.pulses.outputs();
+    let wiring = outputs.get(place.number as usize);
+    let Some(wiring) = wiring.filter(|_| place.index.is_none()) else {
+        return all;
+    };
+    let clears = [wiring.zrn_clear, wiring.home.and_then(|home| home.clear)];
+    let mut found = Vec::new();
+    for clear in clears.into_iter().flatten() {
+        found.push((DeviceClass::Y, clear.output, clear.output));
+        let Some(register) = clear.register else {
+            continue;
+        };
+        let number = register.number();
+        if may_change(module, (DeviceClass::D, number)) {
+            return all;
+        }
+        // The register names an output as it is at power-on.
+        let named = clear.named(module.model.word_at_power_on(register) as u16);
+        found.extend(named.map(|output| (DeviceClass::Y, output, output)));
+    }
+    found
+}
+
+/// Returns true if a device may have another value than at power-on: power-off leaves it at any, the program may write
+/// it, or it reads what a panel may write.
+fn may_change(module: &Module, (class, number): (DeviceClass, u32)) -> bool {
+    let mut found = module.is_latched(class, number);
+    let mut note = |used: Footprint| {
+        let runs = used.reach(module.model, &module.exprs).into_iter();
+        let mut runs = runs.filter(|_| used.place.class == class);
+        found |= runs.any(|(first, last)| (first..=last).contains(&number));
+    };
+    for expr in &module.exprs {
+        of_expr(module.model, expr, &mut note);
+    }
+    let mut leads_anywhere = false;
+    for function in &module.functions {
+        statements(&function.body, &mut |stmt| {
+            of_stmt(module.model, stmt, &mut note);
+            leads_anywhere |=
+                matches!(stmt, Stmt::Do(Action::Call(call)) if call.function.needs().anywhere);
+        });
+    }
+    found || leads_anywhere
+}
+
 /// Runs of devices (class, first, last) that a call may write although no operand names them, in addition to special
 /// devices; the program may have none of them. [`rungc_rt::Needs::anywhere`] is not among them.
-pub fn beyond_operands(call: &Call) -> Vec<(DeviceClass, u32, u32)> {
+pub fn beyond_operands(module: &Module, call: &Call) -> Vec<(DeviceClass, u32, u32)> {
     use DeviceClass::{S, Y};
     let mut runs = Vec::new();
     let needs = call.function.needs();
-    // Clear signals, and the directions of axes.
-    if needs.clears || needs.axis {
-        runs.push((Y, 0, LAST_OUTPUT));
+    if needs.clears {
+        runs.extend(clear_signals(module, call));
+    }
+    if needs.axis {
+        let directions = axis_directions(module.model);
+        runs.push((Y, directions.start, directions.end.saturating_sub(1)));
     }
     if call.function == RtFn::Anr {
         // The annunciators.

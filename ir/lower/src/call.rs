@@ -5,6 +5,7 @@ use super::operand::fixed;
 use rungc_analysis::resolve::Resolution;
 use rungc_catalogue::{Extent, Form, Lower, Param, Rule, Shape};
 use rungc_ir::node::{Action, Arg, Branch, Call, CellId, Expr, ExprId, Place, Stmt, SysValue};
+use rungc_ir::reach::axis_directions;
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::{Clear, CmpOp, EdgeKind, Looks, RtFn, Wiring};
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
@@ -179,7 +180,7 @@ impl Lowerer<'_> {
     /// An axis may be bound to any output, and has an output for its direction.
     fn use_axes(&mut self) {
         let outputs = 0..self.model.pulses.outputs().len() as u32;
-        let directions = outputs.clone().map(|n| (DeviceClass::Y, 0o10 + n));
+        let directions = axis_directions(self.model).map(|output| (DeviceClass::Y, output));
         self.specials.flags.extend(directions);
         self.module.pulse_outputs = outputs.collect();
     }

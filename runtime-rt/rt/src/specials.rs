@@ -51,6 +51,10 @@ impl RtFn {
             RtFn::Plsy | RtFn::Plsr | RtFn::Pwm | RtFn::StopPulses | RtFn::Zrn => Some(&[]),
             RtFn::Plsv => Some(&[2]),
             RtFn::Drvi | RtFn::Drva | RtFn::Dvit | RtFn::Dszr => Some(&[3]),
+            RtFn::AxisPlsy | RtFn::AxisPlsr | RtFn::AxisDrvi | RtFn::AxisDrva | RtFn::AxisDvit => {
+                Some(&[])
+            }
+            RtFn::AxisPlsv | RtFn::AxisPsout | RtFn::AxisJog | RtFn::AxisHome => Some(&[]),
             RtFn::To | RtFn::ToStated | RtFn::ToHost | RtFn::ToRemote | RtFn::Wbfm => Some(&[]),
             RtFn::From | RtFn::FromStated | RtFn::FromHost | RtFn::FromRemote | RtFn::Rbfm => {
                 Some(&[2])

@@ -34,6 +34,19 @@ pub struct Clear {
     pub ms: u32,
 }
 
+impl Clear {
+    /// Output that its register names with this value: 16 for H20, which stands for Y020, if digits are octal; `None`
+    /// if one of them is not.
+    pub fn named(self, value: u16) -> Option<u32> {
+        if !self.octal {
+            return Some(value.into());
+        }
+        let digits = [12, 8, 4, 0].map(|shift| u32::from(value >> shift & 15));
+        let octal = digits.iter().all(|&digit| digit < 8);
+        octal.then(|| digits.iter().fold(0, |number, digit| 8 * number + digit))
+    }
+}
+
 /// The special devices of a return to the origin by DSZR.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Home {

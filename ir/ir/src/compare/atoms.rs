@@ -556,7 +556,7 @@ impl<'a> Reader<'a> {
             ..Needs::default()
         };
         self.runtime(step, needs != at_rest, reads, writes);
-        let beyond = beyond_operands(call);
+        let beyond = beyond_operands(self.module, call);
         reads.runs.extend(&beyond);
         writes.runs.extend(beyond);
         reads.all = needs.anywhere;

@@ -440,8 +440,7 @@ impl Output {
         let number = clear.register.filter(|_| chosen);
         let output = match number.map(|register| cx.special_word(register) as u16) {
             None => Some(clear.output),
-            Some(number) if clear.octal => from_octal_digits(number),
-            Some(number) => Some(number.into()),
+            Some(number) => clear.named(number),
         };
         if let Some(output) = output
             && cx.plc.set_bit(Class::Y, output, true).is_some()
@@ -475,11 +474,4 @@ impl Output {
 /// The time of a ramp in a register.
 fn ramp_ms(cx: &Cx, register: Register) -> u32 {
     i32::from(cx.special_word(register)).clamp(RAMP_MS.0, RAMP_MS.1) as u32
-}
-
-/// 16 for H20, which stands for Y020; `None` if a digit is none of the octal ones.
-fn from_octal_digits(digits: u16) -> Option<u32> {
-    let digits = [12, 8, 4, 0].map(|shift| u32::from(digits >> shift & 15));
-    let octal = digits.iter().all(|&digit| digit < 8);
-    octal.then(|| digits.iter().fold(0, |number, digit| 8 * number + digit))
 }

@@ -6,6 +6,7 @@ use crate::aig::Lit;
 use crate::bits::{Bits, known, signed};
 use rungc_ir::node::{Action, Arg, Call, Fetch};
 use rungc_ir::reach::{beyond_operands, of_action, written_by};
+use rungc_models::runs::is_special;
 use rungc_rt::special::D_ANALOG_INPUTS;
 use rungc_rt::{Register, RtFn, Transfer};
 use rungc_syntax::DeviceClass;
@@ -89,7 +90,14 @@ impl Encoder<'_> {
             Some(own) => self.named_in(&own),
             None => self.specials(),
         };
-        keys.extend(self.named_in(&beyond_operands(call)));
+        keys.extend(self.named_in(&beyond_operands(self.module, call)));
+        // A panel may choose the output of a clear signal.
+        let chooses = |&(class, number): &(DeviceClass, u32)| {
+            class == DeviceClass::D && is_special(class, number)
+        };
+        if needs.clears && self.world.free.iter().any(chooses) {
+            keys.extend(self.named(DeviceClass::Y, 0, u32::MAX));
+        }
         keys
     }
 

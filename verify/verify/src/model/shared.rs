@@ -209,7 +209,7 @@ impl Encoder<'_> {
         let mut keys = self.at_operands(action);
         keys.extend(self.specials());
         if let Action::Call(call) = action {
-            keys.extend(self.named_in(&beyond_operands(call)));
+            keys.extend(self.named_in(&beyond_operands(self.module, call)));
         }
         if anywhere {
             keys.extend(self.state.keys().copied());

@@ -4,6 +4,7 @@ use super::{Gap, World};
 use crate::prove::{Decision, Options, Verdict, decide};
 use crate::tests::module;
 use rungc_sim::property::{Property, parse};
+use rungc_syntax::DeviceClass;
 
 /// Decides whether a condition never holds.
 fn never(list: &str, condition: &str, world: World) -> Decision {
@@ -22,7 +23,7 @@ fn followed_by(instruction: &str) -> String {
 
 #[test]
 fn instructions_write_their_own_outputs_and_no_others() {
-    const OWN: [&str; 17] = [
+    const OWN: [&str; 20] = [
         "PLSY K1000 K0 Y000",
         "PLSR K1000 K100 K100 Y000",
         "PWM K10 K50 Y000",
@@ -40,20 +41,43 @@ fn instructions_write_their_own_outputs_and_no_others() {
         "HKY X020 Y020 D0 M0",
         "ARWS M0 D0 Y020 K0",
         "FMOV K0 D0 K500",
+        "ZRN K100 K100 X003 Y000",
+        "DSZR X003 X004 Y000 Y002",
+        "ZRN K100 K100 X003 Y000\nMOV H20 D8465",
     ];
     for instruction in OWN {
         let found = never(&followed_by(instruction), "Y010 & Y011", World::default());
         assert_eq!(found.verdict, Verdict::Proved, "{instruction}");
     }
-    // The direction, a display, a clear signal.
+    // The direction, a display, a clear signal that the program or a panel leads elsewhere.
     for instruction in [
         "DRVI K100 K100 Y000 Y010",
+        "DSZR X003 X004 Y000 Y010",
         "SEGL D0 Y000 K4",
-        "ZRN K100 K100 X003 Y000",
+        "ZRN K100 K100 X003 Y000\nMOV H10 D8464",
+        "DSZR X003 X004 Y000 Y002\nMOV D0 D8464",
+        "ZRN K100 K100 X003 Y000\nMOV K8464 Z0\nMOV H10 D0Z0",
+        "ZRN K100 K100 X003 Y000\nAND= D8464 K0\nOUT M0",
     ] {
         let found = never(&followed_by(instruction), "Y010 & Y011", World::default());
         assert_ne!(found.verdict, Verdict::Proved, "{instruction}");
     }
+    let panel = World {
+        free: [(DeviceClass::D, 8464)].into(),
+        ..World::default()
+    };
+    let found = never(
+        &followed_by("ZRN K100 K100 X003 Y000"),
+        "Y010 & Y011",
+        panel,
+    );
+    assert_ne!(found.verdict, Verdict::Proved);
+    // The usual output of the signal.
+    let usual = followed_by("ZRN K100 K100 X003 Y000")
+        .replace("Y010", "Y004")
+        .replace("Y011", "Y005");
+    let found = never(&usual, "Y004 & Y005", World::default());
+    assert_ne!(found.verdict, Verdict::Proved);
 }
 
 #[test]
