@@ -258,19 +258,22 @@ fn shown(question: &dyn Question, limit: &Limit, trace: &Trace) -> Option<usize>
     question.happens(trace)
 }
 
-/// Number of scans after which a proof by equal bits is tried.
+/// Number of scans after which an invariant is searched for the first time.
 const EARLY: usize = 3;
 
-/// Bounded search and induction side by side, and a proof by equal bits; then, in rounds that give each of them more
-/// effort, the ways of [`Ways`]; then bounded search alone. `posed` is the question in this world.
+/// Bounded search and induction side by side, and soon a first attempt at an invariant; then, in rounds that give each
+/// of them more effort, the ways of [`Ways`]; then bounded search alone. `posed` is the question in this world.
 pub fn search(question: &dyn Question, world: &World, posed: &Posed, limit: &Limit) -> Answer {
     let mut hunt = Hunt::new(question, world, &posed.system, limit);
     // A proof must hold for what a replay cannot show, too.
     let mut complete = Bounded::new(&posed.system, false, limit);
     let mut induction = Induction::new(&posed.system, limit);
+    let mut as_it_is = Attempt::new(|| posed.clone().simplified(&limit.part(ROUND.0)));
     for scans in 1..=INDUCTION {
+        // Bits that are always equal make a proof short: where the clock of a duration equals a timer of the program, no
+        // search scan by scan comes to an end.
         if scans == EARLY
-            && let Some(proof) = by_equal_bits(posed, limit)
+            && let Some(proof) = as_it_is.invariant(ROUND.0 / 2, limit)
         {
             return proof.into();
         }
@@ -289,7 +292,7 @@ pub fn search(question: &dyn Question, world: &World, posed: &Posed, limit: &Lim
             Step::Violated(_) | Step::TimeUp => break,
         }
     }
-    let mut ways = Ways::new(question, world, posed, limit);
+    let mut ways = Ways::new(question, world, (posed, as_it_is), limit);
     let (mut effort, factor) = ROUND;
     while !limit.is_over() && !ways.are_exhausted(&hunt) {
         if let Some(answer) = ways.round(effort) {
@@ -303,13 +306,6 @@ pub fn search(question: &dyn Question, world: &World, posed: &Posed, limit: &Lim
         }
     }
     hunt.undecided().into()
-}
-
-/// A proof that bits which are always equal make short: where the clock of a duration equals a timer of the program, no
-/// search scan by scan comes to an end.
-fn by_equal_bits(posed: &Posed, limit: &Limit) -> Option<Proof> {
-    let simpler = || posed.clone().simplified(&limit.part(ROUND.0));
-    Attempt::new(simpler).invariant(ROUND.0 / 2, limit)
 }
 
 /// A system in which an invariant is searched. It is made when it is first needed: most questions are answered before.
@@ -371,7 +367,7 @@ impl<'a> Ways<'a> {
     fn new(
         question: &'a dyn Question,
         world: &'a World,
-        posed: &'a Posed,
+        (posed, as_it_is): (&'a Posed, Attempt<'a>),
         limit: &'a Limit,
     ) -> Self {
         let abstracted = || {
@@ -386,12 +382,11 @@ impl<'a> Ways<'a> {
                 ..world.clone()
             })
         };
-        let as_it_is = move || posed.clone().simplified(&limit.part(ROUND.0));
         let abstracts = question.abstracts_timers();
         Ways {
             question,
             world,
-            as_it_is: Attempt::new(as_it_is),
+            as_it_is,
             timers_abstracted: abstracts.then(|| Attempt::new(abstracted)),
             free_scan_times: Attempt::new(free_scan_times),
             long_runs: LongRuns::new(&posed.system, world.scan_ms),
@@ -520,7 +515,7 @@ impl<'a> Hunt<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::{OfProperty, Options, Question, Verdict, Ways, decide};
+    use super::{Attempt, OfProperty, Options, Question, Verdict, Ways, decide};
     use crate::certificate::formulas;
     use crate::model::World;
     use crate::proof::{Fact, Proof};
@@ -553,7 +548,8 @@ mod tests {
         };
         let limit = options.limit();
         let posed = question.posed(&options.world);
-        let mut ways = Ways::new(&question, &options.world, &posed, &limit);
+        let as_it_is = Attempt::new(|| posed.clone().simplified(&limit));
+        let mut ways = Ways::new(&question, &options.world, (&posed, as_it_is), &limit);
         let abstracted = ways.timers_abstracted.as_mut().unwrap();
         let attempts = [abstracted, &mut ways.free_scan_times, &mut ways.as_it_is];
         let mut proofs: Vec<_> = attempts
