@@ -15,10 +15,13 @@ pub fn list() -> String {
     text + "\nA row of rungc.toml demands one: `[[property]]` with `use = \"NAME\"` (`rungc book safety`).\n"
 }
 
+/// Remark on the standards that pages name: their texts are not part of this repository.
+const EDITION: &str = "Standards are named from memory: check the edition that you must follow.";
+
 /// The page of a function as Markdown.
 pub fn markdown(function: &Function) -> String {
     let mut page = format!(
-        "# {}\n\n`use = \"{}\"`\n\n{}\n\nIt follows the idea of: {}.\n\n",
+        "# {}\n\n`use = \"{}\"`\n\n{}\n\nIt follows the idea of: {}. {EDITION}\n\n",
         function.title, function.name, function.text, function.standard
     );
     page += "| parameter | value | default | |\n|---|---|---|---|\n";
@@ -51,7 +54,7 @@ pub fn markdown(function: &Function) -> String {
 /// The page of a function as text.
 pub fn text(function: &Function) -> String {
     let mut page = format!(
-        "{} (use = \"{}\")\n\n{}\n\nIt follows the idea of: {}.\n\nParameters:\n\n",
+        "{} (use = \"{}\")\n\n{}\n\nIt follows the idea of: {}. {EDITION}\n\nParameters:\n\n",
         function.title, function.name, function.text, function.standard
     );
     let width = function
