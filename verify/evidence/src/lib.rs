@@ -70,7 +70,7 @@ pub struct Subject {
 /// A file that verdicts depend on.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 pub struct File {
-    /// Part that it has: `program`, `settings` or `tests`.
+    /// Part that it has: `program`, `older program`, `settings` or `tests`.
     pub role: &'static str,
     /// Path, with slashes.
     pub file: String,
@@ -132,11 +132,12 @@ pub struct Verified {
     pub requirement: Option<String>,
     /// Property as written, with its name if it has one.
     pub property: String,
-    /// Verdict in a word: `proved`, `violated`, `reached`, `not reachable`, `vacuous` or `not decided`.
+    /// Verdict in a word: `proved`, `violated`, `reached`, `not reachable`, `vacuous` or `not decided`; of an output that
+    /// is compared with that of an older program, `the same` or `differs`.
     pub verdict: &'static str,
     /// True if the program has the property, false if not; `None` if that is not decided.
     pub holds: Option<bool>,
-    /// Reason why it is not decided.
+    /// Reason why it is not decided, or how the older program differs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// Grounds of the verdict.
@@ -171,6 +172,8 @@ pub enum Method {
         /// Number of bits of memory that the property depends on.
         bits: usize,
     },
+    /// A proof by induction over all memory that two programs have in common: it ends each scan with the same values.
+    Common,
     /// A run that was replayed.
     Run,
     /// A search for a run that ended without one.

@@ -20,6 +20,10 @@ pub(crate) fn verdict(verified: &Verified) -> String {
         ("not reachable", _) => {
             "Not reachable: proved for this model under these assumptions.".to_string()
         }
+        ("the same", _) => {
+            "The same in both programs: proved for this model under these assumptions.".to_string()
+        }
+        ("differs", _) => format!("Differs in the run below: {}.", reason.unwrap_or_default()),
         ("reached", _) => "Reached: the run below ends with it.".to_string(),
         (_, Some(false)) => "Violated by the run below.".to_string(),
         ("vacuous", _) => format!("Vacuous: {}.", reason.unwrap_or("no reason is known")),
@@ -37,6 +41,7 @@ impl Verified {
 fn method(verified: &Verified) -> Option<String> {
     let verb = match verified.verdict {
         "not reachable" => "reaches",
+        "the same" => "breaks",
         _ => "violates",
     };
     Some(match &verified.method {
@@ -56,6 +61,7 @@ fn method(verified: &Verified) -> Option<String> {
             counted(*clauses, "clause"),
             counted(*bits, "bit")
         ),
+        Method::Common => "induction over all memory that both programs have in common".to_string(),
         Method::Run => format!(
             "run of {}, replayed on {}",
             counted(verified.run.as_ref()?.scans, "scan"),

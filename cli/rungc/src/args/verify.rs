@@ -54,10 +54,10 @@ pub struct VerifyArgs {
     pub write_test: Option<OutputPath>,
     /// Write a report for an assessor (`rungc book requirements`): requirements, proofs, assumptions, gaps, runs and
     /// tests. A page (.html), a document (.pdf) or JSON (.json).
-    #[arg(long, value_name = "FILE", conflicts_with = "same_as")]
+    #[arg(long, value_name = "FILE")]
     pub report: Option<OutputPath>,
     /// With --report: count the mutants (`rungc book mutants`) that the cases of each requirement notice.
-    #[arg(long, requires = "report")]
+    #[arg(long, requires = "report", conflicts_with = "same_as")]
     pub mutants: bool,
     /// Output file for the verdicts, in the format of --format; overwrites earlier ones. Default: standard output.
     #[arg(short, long, value_name = "FILE")]

@@ -11,6 +11,7 @@ use super::{Context, Failure, Outcome, Result, counted, eprint_line, print_text,
 use crate::args::{DiffArgs, DiffFormat, Input};
 use crate::output::{file, write_file};
 use crate::report::{Findings, Reporter};
+use proof::Proofs;
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_frontend::Read;
 use rungc_ir::compare::{Behaviour, behaviour};
@@ -20,6 +21,7 @@ use rungc_ladder::{Ladder, build, html, svg};
 use rungc_lower::compile::{CompileOptions, compile, model};
 use rungc_models::Model;
 use rungc_syntax::{DeviceClass, DeviceRun, Program};
+use rungc_verify::same::Output;
 use std::path::{Path, PathBuf};
 
 /// Compares two programs.
@@ -121,7 +123,7 @@ struct Compared<'a> {
     /// Difference in behaviour, if requested.
     behaviour: Option<Behaviour>,
     /// Outputs that are proved the same.
-    proved: Vec<u32>,
+    proved: Proofs,
 }
 
 /// Compares two programs and prints the result; whether they differ.
@@ -236,7 +238,7 @@ impl Compared<'_> {
     /// Result of comparing the behaviour, in sentences.
     fn in_words(&self) -> Vec<String> {
         let mut words = match &self.behaviour {
-            Some(behaviour) => in_words(behaviour, &self.proved),
+            Some(behaviour) => in_words(behaviour, &self.proved.outputs),
             None => return Vec::new(),
         };
         let vague = self.vague();
@@ -261,7 +263,7 @@ impl Compared<'_> {
 }
 
 /// Result of comparing the behaviour, in sentences.
-fn in_words(behaviour: &Behaviour, proved: &[u32]) -> Vec<String> {
+fn in_words(behaviour: &Behaviour, proved: &[Output]) -> Vec<String> {
     match behaviour {
         Behaviour::Same => vec![
             "Same behaviour: with the same inputs, all devices have the same values.".to_string(),
@@ -281,8 +283,8 @@ fn in_words(behaviour: &Behaviour, proved: &[u32]) -> Vec<String> {
             }
             if !proved.is_empty() {
                 let mut runs = Vec::new();
-                for number in proved {
-                    proof::add(&mut runs, DeviceClass::Y, *number);
+                for output in proved {
+                    proof::add(&mut runs, DeviceClass::Y, output.number);
                 }
                 words.push(format!(
                     "Outputs that are proved the same, with scans of at most {} ms: {}.",

@@ -98,6 +98,11 @@ impl Chosen {
         Ok(files)
     }
 
+    /// Returns true if the settings demand properties, which are not test cases.
+    fn has_properties(&self) -> bool {
+        self.project.as_ref().is_some_and(Project::has_properties)
+    }
+
     /// Errors that are warnings.
     fn warn(&self) -> &[&'static str] {
         let settings = self.project.as_ref();
@@ -140,6 +145,9 @@ fn run_files(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context
         elapsed: start.elapsed(),
     };
     publish(args, &results, cx)?;
+    if chosen.has_properties() {
+        cx.note("  Not tested `[[property]]` of rungc.toml, which `rungc verify` decides");
+    }
     Ok(match report.is_success() {
         _ if interruption::is_requested() => Outcome::Interrupted,
         true => Outcome::Success,

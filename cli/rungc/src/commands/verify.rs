@@ -1,10 +1,10 @@
 //! `rungc verify`.
 
 mod engines;
-mod evidence;
+pub(super) mod evidence;
 mod export;
 pub(super) mod report;
-mod same;
+pub(super) mod same;
 pub(super) mod test_file;
 
 use super::check::draw;
@@ -17,7 +17,7 @@ use crate::args::VerifyArgs;
 use crate::output::{file, spare, write_file};
 use crate::report::Reporter;
 use crate::report::junit::{Case, properties};
-use evidence::Grounds;
+use evidence::{Basis, Grounds};
 use rungc_evidence::Evidence;
 use rungc_frontend::Read;
 use rungc_ir::Module;
@@ -116,16 +116,18 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
         })
         .collect();
     let grounds = Grounds {
-        args,
-        subject: &subject,
-        read: &read,
-        module: &module,
+        basis: Basis {
+            args,
+            subject: &subject,
+            read: &read,
+            module: &module,
+            options: &options,
+            assumed: &assumed,
+            external: &external,
+            engines: &replayed.engines,
+        },
         requested: &requested,
         results: &results,
-        options: &options,
-        assumed: &assumed,
-        external: &external,
-        engines: &replayed.engines,
         certificates: &certificates,
     };
     conclude(&grounds, reporter, cx)?;
@@ -153,19 +155,20 @@ fn conclude(
     mut reporter: Reporter,
     cx: Context,
 ) -> std::result::Result<(), Failure> {
-    let Grounds {
+    let results = grounds.results;
+    let Basis {
         args,
         subject,
         read,
         module,
-        results,
+        options,
         ..
-    } = *grounds;
+    } = grounds.basis;
     let evidence = evidence::gather(grounds, cx)?;
     evidence::write(args, &evidence, cx)?;
     publish(subject, read, (module, results), evidence, &mut reporter)?;
-    let supposed = (grounds.assumed, grounds.external);
-    let text = || report::human(results, module, grounds.options, supposed);
+    let supposed = (grounds.basis.assumed, grounds.basis.external);
+    let text = || report::human(results, module, options, supposed);
     deliver(args, reporter, text, &report::summary(results), cx)?;
     let Some(path) = &args.write_test else {
         return Ok(());

@@ -1,10 +1,11 @@
 //! A comparison as JSON.
 
 use super::{Compared, Failure};
+use crate::commands::verify::evidence;
+use crate::commands::verify::same::named;
 use crate::report::to_json;
 use rungc_ir::compare::Behaviour;
 use rungc_ladder::compare::{Change, Differing, Drawn};
-use rungc_syntax::DeviceClass;
 use serde_json::{Value, json};
 use std::fmt::Display;
 
@@ -25,9 +26,18 @@ pub fn object(compared: &Compared, differs: bool) -> Result<String, Failure> {
     });
     if let Some(found) = &compared.behaviour {
         object["behaviour"] = behaviour(found);
-        let proved = compared.proved.iter();
-        let proved = proved.map(|number| DeviceClass::Y.number(*number).to_string());
+        let outputs = compared.proved.outputs.iter();
+        let proved = outputs.clone().map(|output| named(output).to_string());
         object["behaviour"]["proved"] = proved.collect();
+        let proofs = outputs.map(|output| {
+            json!({
+                "device": named(output).to_string(),
+                "method": evidence::same::method(output),
+                "gaps": evidence::gaps(&output.gaps),
+            })
+        });
+        object["behaviour"]["proofs"] = proofs.collect();
+        object["behaviour"]["assumptions"] = json!(compared.proved.assumptions);
         let vague = compared.vague().into_iter();
         let vague = vague.map(|(is_new, mnemonic, step)| {
             let program = if is_new { "new" } else { "old" };

@@ -1,6 +1,9 @@
 //! Outputs that can differ as far as statements show, and are proved the same nevertheless.
 
 use super::Side;
+use crate::commands::properties::ExternalWrites;
+use crate::commands::verify::report;
+use crate::commands::verify::same::assumptions as assumptions_of;
 use rungc_ir::Module;
 use rungc_ir::compare::Behaviour;
 use rungc_ir::passes::simplify;
@@ -8,7 +11,7 @@ use rungc_lower::compile::{CompileOptions, compile};
 use rungc_syntax::{DeviceClass, DeviceRun};
 use rungc_verify::model::World;
 use rungc_verify::prove::{Options, Verdict};
-use rungc_verify::same;
+use rungc_verify::same::{self, Output};
 use std::collections::BTreeSet;
 
 /// Limits of the effort: for all outputs together, and for one of them.
@@ -19,41 +22,61 @@ pub(super) fn scan_ms() -> u32 {
     World::default().scan_ms
 }
 
-/// Takes the outputs Y out of those that can differ that no run makes differ; their numbers.
-pub(super) fn proved(old: &Side, new: &Side, behaviour: &mut Behaviour) -> Vec<u32> {
+/// Outputs that are proved the same, and what the proofs suppose.
+#[derive(Default)]
+pub(super) struct Proofs {
+    pub outputs: Vec<Output>,
+    pub assumptions: Vec<String>,
+}
+
+/// Takes the outputs Y out of those that can differ that no run makes differ.
+pub(super) fn proved(old: &Side, new: &Side, behaviour: &mut Behaviour) -> Proofs {
     let Behaviour::CanDiffer { devices, .. } = behaviour else {
-        return Vec::new();
+        return Proofs::default();
     };
     let is_output = |run: &&DeviceRun| run.class == DeviceClass::Y;
     let outputs = devices.iter().filter(is_output).flat_map(numbers).count();
     if outputs == 0 {
-        return Vec::new();
+        return Proofs::default();
     }
     let (Some(old), Some(new)) = (module(old), module(new)) else {
-        return Vec::new();
+        return Proofs::default();
     };
     let [all, one] = EFFORT;
     let options = Options {
         effort: one.min(all / outputs as u64),
         ..Options::default()
     };
-    let outputs = same::compare(&old, &new, &options).outputs;
-    let outputs = outputs
-        .iter()
-        .filter(|output| output.verdict == Verdict::Proved);
-    let same: BTreeSet<u32> = outputs.map(|output| output.number).collect();
-    let mut proved = Vec::new();
-    let mut rest = Vec::new();
+    let mut compared = same::compare(&old, &new, &options);
+    compared
+        .outputs
+        .retain(|output| output.verdict == Verdict::Proved);
+    let is_same = |number| {
+        compared
+            .outputs
+            .iter()
+            .any(|output| output.number == number)
+    };
+    let (mut proved, mut rest) = (BTreeSet::new(), Vec::new());
     for run in devices.drain(..) {
         for number in numbers(&run) {
-            match run.class {
-                DeviceClass::Y if same.contains(&number) => proved.push(number),
-                class => add(&mut rest, class, number),
+            if run.class == DeviceClass::Y && is_same(number) {
+                proved.insert(number);
+            } else {
+                add(&mut rest, run.class, number);
             }
         }
     }
     *devices = rest;
-    proved
+    let mut assumptions = report::assumptions(&options.world, &[], &ExternalWrites::of(None, None));
+    assumptions.extend(assumptions_of(&compared));
+    compared
+        .outputs
+        .retain(|output| proved.contains(&output.number));
+    Proofs {
+        outputs: compared.outputs,
+        assumptions,
+    }
 }
 
 fn numbers(run: &DeviceRun) -> std::ops::Range<u32> {

@@ -1,9 +1,10 @@
 //! Evidence of what was decided, for reports and for documents of verdicts.
 
 mod run;
+pub mod same;
 mod tests;
 
-use super::export::{Written, slashed};
+use super::export::{Written, WrittenFile, slashed};
 use super::report;
 use crate::args::VerifyArgs;
 use crate::commands::properties::{ExternalWrites, RequestedProperty};
@@ -20,24 +21,30 @@ use rungc_host::io::timestamp;
 use rungc_ir::Module;
 use rungc_project::{Project, Range};
 use rungc_syntax::inputs;
-use rungc_verify::proof;
 use rungc_verify::prove::{Options, Verdict, Why};
+use rungc_verify::{model, proof};
 use std::path::Path;
 use std::time::{Duration, UNIX_EPOCH};
 
-/// All that evidence is made of.
-pub struct Grounds<'a> {
+/// What all verdicts about a program rest on.
+#[derive(Clone, Copy)]
+pub struct Basis<'a> {
     pub args: &'a VerifyArgs,
     pub subject: &'a Subject,
     pub read: &'a Read,
     pub module: &'a Module,
-    pub requested: &'a [RequestedProperty],
-    pub results: &'a [report::Result<'a>],
     pub options: &'a Options,
     pub assumed: &'a [String],
     pub external: &'a ExternalWrites,
     /// Engines that have shown the runs.
     pub engines: &'a [&'static str],
+}
+
+/// All that evidence is made of.
+pub struct Grounds<'a> {
+    pub basis: Basis<'a>,
+    pub requested: &'a [RequestedProperty],
+    pub results: &'a [report::Result<'a>],
     /// Files of each proof.
     pub certificates: &'a [Written],
 }
@@ -89,25 +96,36 @@ pub fn write(args: &VerifyArgs, evidence: &Evidence, cx: Context) -> Result<(), 
 
 /// The evidence; with tests, pictures and date if it is for a report.
 pub fn gather(grounds: &Grounds, cx: Context) -> Result<Evidence, Failure> {
-    let is_report = grounds.args.report.is_some();
+    let basis = grounds.basis;
     let mut evidence = Evidence {
-        report: "rungc verify",
-        version: VERSION,
-        rungc: env!("CARGO_PKG_VERSION").to_string(),
-        date: None,
-        subject: subject(grounds)?,
-        settings: settings(grounds),
-        assumptions: report::assumptions(&grounds.options.world, grounds.assumed, grounds.external),
-        requirements: requirements(grounds.subject.own_project()),
+        requirements: requirements(basis.subject.own_project()),
         properties: verified(grounds),
-        tests: None,
-        missing: Vec::new(),
+        ..begun(&basis)?
     };
-    if is_report {
-        evidence.date = date()?;
+    if basis.args.report.is_some() {
         tests::add(grounds, &mut evidence, cx)?;
     }
     Ok(evidence)
+}
+
+/// Evidence before any verdict; with its date if it is for a report.
+fn begun(basis: &Basis) -> Result<Evidence, Failure> {
+    Ok(Evidence {
+        report: "rungc verify",
+        version: VERSION,
+        rungc: env!("CARGO_PKG_VERSION").to_string(),
+        date: match basis.args.report {
+            Some(_) => date()?,
+            None => None,
+        },
+        subject: subject(basis)?,
+        settings: settings(basis),
+        assumptions: report::assumptions(&basis.options.world, basis.assumed, basis.external),
+        requirements: Vec::new(),
+        properties: Vec::new(),
+        tests: None,
+        missing: Vec::new(),
+    })
 }
 
 /// The date of SOURCE_DATE_EPOCH, which builds that can be repeated set: seconds since 1970.
@@ -127,26 +145,11 @@ fn date() -> Result<Option<String>, Failure> {
     }
 }
 
-fn subject(grounds: &Grounds) -> Result<rungc_evidence::Subject, Failure> {
-    let (subject, read, model) = (grounds.subject, grounds.read, grounds.module.model);
-    let project = subject.project.as_ref().map(|project| project.path.clone());
-    let is_same = |a: &Path, b: &Path| same_file::is_same_file(a, b).unwrap_or(false);
-    let mut files = Vec::new();
-    if subject.is_stdin() {
-        files.push(File {
-            role: "program",
-            file: "-".to_string(),
-            sha256: sha256(read.program.source.text.as_bytes()),
-        });
-    }
-    for path in inputs::all() {
-        let is_settings = project.as_deref().is_some_and(|of| is_same(of, &path));
-        if path.starts_with(&subject.file) && path.is_file() && !is_settings {
-            files.push(file("program", &path)?);
-        }
-    }
+fn subject(basis: &Basis) -> Result<rungc_evidence::Subject, Failure> {
+    let (subject, read, model) = (basis.subject, basis.read, basis.module.model);
+    let mut files = program_files("program", subject, read)?;
     let program = of_list(&files);
-    if let Some(path) = project {
+    if let Some(path) = subject.project.as_ref().map(|project| project.path.clone()) {
         files.push(file("settings", &near(path))?);
     }
     Ok(rungc_evidence::Subject {
@@ -162,6 +165,27 @@ fn subject(grounds: &Grounds) -> Result<rungc_evidence::Subject, Failure> {
     })
 }
 
+/// The files of a program, each with the part that it has.
+fn program_files(role: &'static str, subject: &Subject, read: &Read) -> Result<Vec<File>, Failure> {
+    let project = subject.project.as_ref().map(|project| project.path.clone());
+    let is_same = |a: &Path, b: &Path| same_file::is_same_file(a, b).unwrap_or(false);
+    let mut files = Vec::new();
+    if subject.is_stdin() {
+        files.push(File {
+            role,
+            file: "-".to_string(),
+            sha256: sha256(read.program.source.text.as_bytes()),
+        });
+    }
+    for path in inputs::all() {
+        let is_settings = project.as_deref().is_some_and(|of| is_same(of, &path));
+        if path.starts_with(&subject.file) && path.is_file() && !is_settings {
+            files.push(file(role, &path)?);
+        }
+    }
+    Ok(files)
+}
+
 /// A file with its hash.
 fn file(role: &'static str, path: &Path) -> Result<File, Failure> {
     let bytes = std::fs::read(path).map_err(|error| at(path, error))?;
@@ -172,8 +196,8 @@ fn file(role: &'static str, path: &Path) -> Result<File, Failure> {
     })
 }
 
-fn settings(grounds: &Grounds) -> Vec<Setting> {
-    let options = grounds.options;
+fn settings(basis: &Basis) -> Vec<Setting> {
+    let options = basis.options;
     let mut settings = vec![
         Setting {
             name: "Longest time between scans",
@@ -206,8 +230,8 @@ fn settings(grounds: &Grounds) -> Vec<Setting> {
             vec![format!("{} s", time.as_secs_f64())],
         );
     }
-    for by in grounds.external.sources() {
-        let devices = grounds.external.devices.iter();
+    for by in basis.external.sources() {
+        let devices = basis.external.devices.iter();
         let own = devices.filter(|(_, named)| **named == by);
         let names = own.map(|((class, number), _)| class.number(*number).to_string());
         add(
@@ -215,7 +239,7 @@ fn settings(grounds: &Grounds) -> Vec<Setting> {
             vec![format!("{by}: {}", names.collect::<Vec<_>>().join(", "))],
         );
     }
-    let subject = grounds.subject;
+    let subject = basis.subject;
     let warn = &subject.options().warn;
     add(
         "Errors taken as warnings",
@@ -268,23 +292,14 @@ fn requirements(project: Option<&Project>) -> Vec<Requirement> {
 }
 
 fn verified(grounds: &Grounds) -> Vec<Verified> {
-    let drawn = grounds.args.report.is_some();
+    let basis = grounds.basis;
     let pairs = grounds.requested.iter().zip(grounds.results);
     let pairs = pairs.zip(grounds.certificates);
     pairs
         .map(|((requested, result), written)| {
             let decision = result.decision;
-            let gaps = decision.gaps.iter().map(|gap| Gap {
-                what: gap.what.clone(),
-                step: gap.step,
-                is_instruction: gap.is_instruction,
-            });
-            let reason = match &decision.verdict {
-                Verdict::Undecided(why) => Some(report::reason(why)),
-                Verdict::Proved | Verdict::Found(_) => None,
-            };
             let run = match &decision.verdict {
-                Verdict::Found(trace) => Some(run::run(grounds, result.property, trace, drawn)),
+                Verdict::Found(trace) => Some(run::run(&basis, result.property, trace)),
                 Verdict::Proved | Verdict::Undecided(_) => None,
             };
             Verified {
@@ -296,20 +311,38 @@ fn verified(grounds: &Grounds) -> Vec<Verified> {
                     (Verdict::Proved, wanted) => Some(!wanted),
                     (Verdict::Found(_), wanted) => Some(wanted),
                 },
-                reason,
-                method: method(decision),
-                gaps: gaps.collect(),
-                inputs: devices(result, grounds.module),
+                reason: reason(&decision.verdict),
+                method: method(&decision.verdict, decision.proof.as_ref(), decision.latches),
+                gaps: gaps(&decision.gaps),
+                inputs: devices(result, basis.module),
                 run,
-                certificate: certificate(written),
+                certificate: certificates(written.iter()),
             }
         })
         .collect()
 }
 
-fn method(decision: &rungc_verify::prove::Decision) -> Method {
-    let bits = decision.latches;
-    match (&decision.verdict, &decision.proof) {
+/// Reason why something is not decided.
+fn reason(verdict: &Verdict) -> Option<String> {
+    match verdict {
+        Verdict::Undecided(why) => Some(report::reason(why)),
+        Verdict::Proved | Verdict::Found(_) => None,
+    }
+}
+
+/// Parts that the model leaves open.
+pub fn gaps(gaps: &[model::Gap]) -> Vec<Gap> {
+    let gaps = gaps.iter().map(|gap| Gap {
+        what: gap.what.clone(),
+        step: gap.step,
+        is_instruction: gap.is_instruction,
+    });
+    gaps.collect()
+}
+
+/// Grounds of a verdict on what depends on this many bits of memory.
+fn method(verdict: &Verdict, proof: Option<&proof::Proof>, bits: usize) -> Method {
+    match (verdict, proof) {
         (Verdict::Proved, Some(proof)) => match &proof.method {
             proof::Method::Induction(scans) => Method::Induction {
                 scans: *scans,
@@ -343,8 +376,9 @@ fn devices(result: &report::Result, module: &Module) -> Vec<Inputs> {
     unwritten.into_iter().chain(outside).collect()
 }
 
-fn certificate(written: &Written) -> Vec<Certificate> {
-    let files = written.iter().map(|(path, bytes, check)| Certificate {
+/// Files of a proof.
+fn certificates<'w>(written: impl Iterator<Item = &'w WrittenFile>) -> Vec<Certificate> {
+    let files = written.map(|(path, bytes, check)| Certificate {
         file: slashed(path),
         sha256: sha256(bytes),
         check: check.clone(),

@@ -55,8 +55,11 @@ pub fn can_prove(args: &VerifyArgs) -> std::result::Result<(), Failure> {
     }
 }
 
-/// Files of a proof as they were written: path, contents, and the command that checks them.
-pub type Written = Vec<(PathBuf, Vec<u8>, String)>;
+/// A file of a proof as it was written: path, contents, and the command that checks it.
+pub type WrittenFile = (PathBuf, Vec<u8>, String);
+
+/// The files of a proof.
+pub type Written = Vec<WrittenFile>;
 
 /// Writes proofs into folders, if requested: those of several properties into one folder each, `1` or `1-R1` by the
 /// number of the property and its requirement. `None` stands for what was not proved. Returns what was written of each.

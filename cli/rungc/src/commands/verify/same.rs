@@ -1,15 +1,17 @@
 //! `--same-as`: two programs.
 
 use super::engines::{self, Shown};
+use super::evidence::same::Comparison;
+use super::evidence::{self, Basis};
 use super::{export, report};
 use crate::args::{Input, VerifyArgs};
 use crate::commands::check::deep::writes;
 use crate::commands::properties::{Reader, module};
-use crate::commands::subject::{self, Subject};
+use crate::commands::subject;
 use crate::commands::{Context, Failure, Outcome, Result, counted, read};
-use crate::report::junit::{Case, Problem, Properties};
+use crate::report::junit::{Case, Problem, Properties, properties};
 use crate::report::{Findings, Reporter};
-use rungc_frontend::Read;
+use rungc_evidence::Evidence;
 use rungc_ir::Module;
 use rungc_sim::Target;
 use rungc_sim::property::{Condition, Property, Reading};
@@ -17,6 +19,7 @@ use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Device, DeviceClass, Diagnostics};
 use rungc_verify::certificate;
 use rungc_verify::prove::{Options, Verdict};
+use rungc_verify::replay::Change;
 use rungc_verify::same::{Compared, Output, compare};
 use rungc_verify::search::Trace;
 use std::collections::BTreeSet;
@@ -25,6 +28,7 @@ use std::path::Path;
 
 /// Compares a program with an older one.
 pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
+    evidence::check(args)?;
     let subject = subject::one(&args.input, cx)?;
     let before = subject::one(&input_of(args, old), cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
@@ -71,24 +75,33 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     let proved = compared.outputs.iter().any(is_same);
     let proofs = proved.then(|| certificate::of_comparison(&compared));
     let time = super::solver_time(&options);
-    export::proofs(args, vec![(None, proofs)], time, cx)?;
+    let certificates = export::proofs(args, vec![(None, proofs)], time, cx)?;
     let names = [&before, &subject].map(|subject| subject.file.display().to_string());
     let shown = shown(&compared);
-    for (number, why) in engines::replay(args.replay, &modules, &shown, cx)?.differing {
+    let replayed = engines::replay(args.replay, &modules, &shown, cx)?;
+    for (number, why) in replayed.differing {
         compared.outputs[number].verdict = Verdict::Undecided(why);
     }
+    let basis = Basis {
+        args,
+        subject: &subject,
+        read: &read_new,
+        module: &modules[1],
+        options: &options,
+        assumed: &assumed,
+        external: &external,
+        engines: &replayed.engines,
+    };
+    let comparison = Comparison {
+        older: &before,
+        read: &read_old,
+        compared: &compared,
+        certificate: &certificates.concat(),
+    };
+    let evidence = evidence::same::gather(&basis, &comparison)?;
+    evidence::write(args, &evidence, cx)?;
+    publish(&basis, &comparison, &names, evidence, &mut reporter)?;
     let outputs = compared.outputs.iter();
-    let file = subject.file.display().to_string();
-    let cases = outputs
-        .clone()
-        .map(|output| case(output, &file, &names, &modules[1]));
-    publish(
-        &subject,
-        &read_new,
-        &compared,
-        cases.collect(),
-        &mut reporter,
-    )?;
     let supposed = report::assumptions(&options.world, &assumed, &external);
     let text = || text(&compared, &names, &modules[1], &supposed);
     let outcomes = outputs.map(|output| outcome(&output.verdict));
@@ -149,7 +162,8 @@ fn outcome(verdict: &Verdict) -> Outcome {
     }
 }
 
-fn named(output: &Output) -> Device {
+/// The output's name.
+pub fn named(output: &Output) -> Device {
     Device {
         class: DeviceClass::Y,
         number: output.number,
@@ -158,24 +172,23 @@ fn named(output: &Output) -> Device {
 
 /// Reports outputs that differ, or may, as diagnostics where they are written.
 fn publish(
-    subject: &Subject,
-    read: &Read,
-    compared: &Compared,
-    cases: Vec<Case>,
+    basis: &Basis,
+    comparison: &Comparison,
+    names: &[String; 2],
+    evidence: Evidence,
     reporter: &mut Reporter,
 ) -> std::result::Result<(), Failure> {
+    let (subject, program) = (basis.subject, &basis.read.program);
+    let outputs = &comparison.compared.outputs;
     let mut diagnostics = Diagnostics::new();
-    let model = rungc_lower::compile::model(&read.program, &subject.options());
-    for output in &compared.outputs {
+    let model = rungc_lower::compile::model(program, &subject.options());
+    for output in outputs {
         let name = named(output);
         let Some((code, text)) = finding(output) else {
             continue;
         };
-        let mut written = read
-            .program
-            .instrs
-            .iter()
-            .filter(|instr| writes(instr, name, model));
+        let instrs = program.instrs.iter();
+        let mut written = instrs.filter(|instr| writes(instr, name, model));
         let span = written.next().map(|instr| instr.span);
         let mut diagnostic = code.at(span.unwrap_or_default(), text);
         if span.is_some() {
@@ -183,12 +196,15 @@ fn publish(
         }
         diagnostics.push(diagnostic);
     }
-    let findings = Findings::new(
-        &subject.file,
-        &read.program,
-        diagnostics,
-        &subject.reporting,
-    );
+    let mut findings = Findings::new(&subject.file, program, diagnostics, &subject.reporting);
+    let file = subject.file.display().to_string();
+    let cases = outputs.iter().zip(&evidence.properties);
+    let cases = cases.map(|(output, verified)| Case {
+        properties: properties(verified),
+        ..case(output, &file, names, basis.module)
+    });
+    let cases = cases.collect();
+    findings.verification = Some(evidence);
     Ok(reporter.add_verdicts(&findings, cases)?)
 }
 
@@ -216,7 +232,7 @@ fn case(output: &Output, file: &str, names: &[String; 2], module: &Module) -> Ca
     let problem = finding(output).map(|(code, message)| {
         let mut text = format!("{message}\n");
         if let Verdict::Found(trace) = &output.verdict {
-            difference(&mut text, &name, trace, names, module);
+            difference(&mut text, output, trace, names, module);
         }
         report::gaps(&mut text, &output.gaps);
         Problem {
@@ -259,7 +275,7 @@ fn text(compared: &Compared, names: &[String; 2], module: &Module, supposed: &[S
             Verdict::Proved => continue,
             Verdict::Found(trace) => {
                 let _ = writeln!(text, "differs     {name} ({seconds:.2} s)");
-                difference(&mut text, &name.to_string(), trace, names, module);
+                difference(&mut text, output, trace, names, module);
             }
             Verdict::Undecided(why) => {
                 let _ = writeln!(text, "not decided {name} ({seconds:.2} s)");
@@ -280,48 +296,55 @@ fn text(compared: &Compared, names: &[String; 2], module: &Module, supposed: &[S
     }
     if !same.is_empty() {
         let _ = writeln!(text, "Proved for this model under these assumptions:");
-        for line in supposed {
+        for line in supposed.iter().chain(&assumptions(compared)) {
             let _ = writeln!(text, "  - {line}");
-        }
-        let _ = writeln!(
-            text,
-            "  - both begin with the same in latched devices of both, and are not switched off and on again"
-        );
-        let calls: BTreeSet<&str> = compared
-            .functions
-            .iter()
-            .map(|gap| gap.what.as_str())
-            .collect();
-        if !calls.is_empty() {
-            let list = Vec::from_iter(calls).join(", ");
-            let _ = writeln!(
-                text,
-                "  - from the same values this makes the same in both programs: {list}"
-            );
         }
     }
     text
 }
 
+/// Assumptions of every comparison, in addition to those of proofs.
+pub fn assumptions(compared: &Compared) -> Vec<String> {
+    let mut lines = vec![
+        "both begin with the same in latched devices of both, and are not switched off and on again"
+            .to_string(),
+    ];
+    let functions = compared.functions.iter();
+    let calls: BTreeSet<&str> = functions.map(|gap| gap.what.as_str()).collect();
+    if !calls.is_empty() {
+        let list = Vec::from_iter(calls).join(", ");
+        lines.push(format!(
+            "from the same values this makes the same in both programs: {list}"
+        ));
+    }
+    lines
+}
+
+/// Returns true if an output is on at the end of a run of a program.
+pub fn is_on(output: &Output, trace: &Trace, module: &Module) -> bool {
+    let story = story(output, trace, module);
+    let end = story.last().map_or(&[][..], |last| &last.after);
+    end.iter().any(|(.., value)| *value != Reading::Integer(0))
+}
+
+/// A run in which an output differs.
+fn story(output: &Output, trace: &Trace, module: &Module) -> Vec<Change> {
+    let Ok(target) = Target::parse(&named(output).to_string()) else {
+        return Vec::new();
+    };
+    let property = Property::Never(Condition::On(target));
+    rungc_verify::replay::story(module, &property, trace)
+}
+
 /// The run in which an output differs, and what it is then in either program.
 fn difference(
     text: &mut String,
-    name: &str,
+    output: &Output,
     trace: &Trace,
     [old, new]: &[String; 2],
     module: &Module,
 ) {
-    let Ok(target) = Target::parse(name) else {
-        return;
-    };
-    let property = Property::Never(Condition::On(target));
-    let story = rungc_verify::replay::story(module, &property, trace);
-    let on = story.last().is_some_and(|last| {
-        last.after
-            .iter()
-            .any(|(.., value)| *value != Reading::Integer(0))
-    });
-    report::write_story(text, module, &story);
-    let other = i32::from(!on);
+    report::write_story(text, module, &story(output, trace, module));
+    let other = i32::from(!is_on(output, trace, module));
     let _ = writeln!(text, "            {:<26}  in {new}; {other} in {old}", "");
 }

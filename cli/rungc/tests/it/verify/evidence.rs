@@ -278,3 +278,87 @@ fn tools_get_what_verdicts_rest_on() {
         assert!(junit.contains(&fact), "{fact}\n{junit}");
     }
 }
+
+#[test]
+fn comparisons_have_the_evidence_of_properties() {
+    let old =
+        "LD X000\nOUT Y000\nLD X001\nOR M0\nOUT M0\nLD M0\nOUT Y001\nLD X002\nOUT Y002\nEND\n";
+    let new = old
+        .replace("OUT Y000", "ANI X003\nOUT Y000")
+        .replace("M0", "M1");
+    let folder = folder(&[("old.il", old.as_bytes()), ("new.il", new.as_bytes())]);
+    let path = folder.path();
+    let args = ["new.il", "--same-as", "old.il", "--certificate", "proof"];
+    let more = ["--format", "json", "-o", "v.json", "--report", "r.json"];
+    verify(path, &[&args[..], &more].concat(), 1);
+    let [verdicts, report] = ["v.json", "r.json"].map(|name| json(&path.join(name)));
+    let verification = &verdicts["verification"];
+    assert_eq!(verification["properties"], report["properties"]);
+    let found: Vec<_> = report["properties"].as_array().unwrap().iter().collect();
+    let verdicts: Vec<&str> = found
+        .iter()
+        .map(|of| of["verdict"].as_str().unwrap())
+        .collect();
+    assert_eq!(verdicts, ["differs", "the same", "the same"], "{report:#}");
+    assert_eq!(found[0]["reason"], "Y000 = 1 in old.il");
+    assert_eq!(found[0]["method"]["kind"], "run");
+    assert_eq!(found[0]["run"]["end"][0]["value"], 0);
+    assert_eq!(found[2]["method"]["kind"], "common");
+    for of in &found[1..] {
+        let files = of["certificate"].as_array().unwrap();
+        assert!(
+            files.iter().any(|file| file["file"] == "proof/memory.cnf"),
+            "{of:#}"
+        );
+    }
+    let files = report["subject"]["files"].as_array().unwrap().iter();
+    let roles: Vec<_> = files.map(|file| (&file["role"], &file["file"])).collect();
+    assert_eq!(
+        roles,
+        [
+            (&"program".into(), &"new.il".into()),
+            (&"older program".into(), &"old.il".into())
+        ]
+    );
+    let assumptions = report["assumptions"].as_array().unwrap();
+    let latched = |line: &&Value| {
+        line.as_str()
+            .unwrap()
+            .contains("both begin with the same in latched devices")
+    };
+    assert_eq!(assumptions.iter().filter(latched).count(), 1);
+    let output = rungc(
+        path,
+        &["diff", "--semantic", "--format", "json", "old.il", "new.il"],
+    );
+    let behaviour = &serde_json::from_slice::<Value>(&output.stdout).unwrap()["behaviour"];
+    let devices: Vec<&Value> = behaviour["proofs"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|of| &of["device"])
+        .collect();
+    assert_eq!(devices, ["Y001"], "{behaviour:#}");
+    assert!(behaviour["assumptions"].as_array().unwrap().len() > 3);
+}
+
+/// The effort of the settings counts unless an option names another.
+#[test]
+fn the_effort_of_the_settings_limits_a_search() {
+    let program = "LD X000\nOUT C0 K30000\nLD C0\nANI X000\nOUT Y000\nEND\n";
+    let folder = folder(&[
+        ("p.il", program.as_bytes()),
+        (
+            "rungc.toml",
+            b"[project]\nprogram = \"p.il\"\n[verify]\neffort = 7\n",
+        ),
+    ]);
+    for (args, effort) in [(&[][..], "7"), (&["--effort", "9"], "9")] {
+        let args = [&["--never", "Y000"], args].concat();
+        let shown = text(&verify(folder.path(), &args, 3).stdout);
+        assert!(
+            shown.contains(&format!("an effort of {effort} was not enough")),
+            "{shown}"
+        );
+    }
+}

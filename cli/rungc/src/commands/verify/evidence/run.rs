@@ -1,6 +1,6 @@
 //! A run as evidence: what is set when, its timing diagram, and the power in the networks that it is about.
 
-use super::Grounds;
+use super::Basis;
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_analysis::xref::{CrossReference, UseKind};
 use rungc_evidence::{Change, Network, Number, Run, Value};
@@ -19,9 +19,9 @@ use rungc_verify::search::Trace;
 /// Time that the last scan is shown, in milliseconds.
 const LAST_MS: u64 = 10;
 
-/// A run; with pictures if it is to be `drawn`.
-pub fn run(grounds: &Grounds, property: &Property, trace: &Trace, drawn: bool) -> Run {
-    let module = grounds.module;
+/// A run of the program; with pictures if it is for a report.
+pub fn run(basis: &Basis, property: &Property, trace: &Trace) -> Run {
+    let module = basis.module;
     let story = story(module, property, trace);
     let values = |settings: &[Setting]| settings.iter().map(|set| value(module, set)).collect();
     let mut changes = Vec::new();
@@ -47,15 +47,15 @@ pub fn run(grounds: &Grounds, property: &Property, trace: &Trace, drawn: bool) -
     let mut run = Run {
         scans: trace.scans.len(),
         ms: duration(trace),
-        engines: grounds.engines.to_vec(),
+        engines: basis.engines.to_vec(),
         start: values(start),
         changes,
         end: values(end),
         diagram: None,
         networks: Vec::new(),
     };
-    if drawn {
-        let (resolved, _) = resolve(&grounds.read.program, module.model);
+    if basis.args.report.is_some() {
+        let (resolved, _) = resolve(&basis.read.program, module.model);
         let ladder = build::ladder(&resolved);
         let set = story.iter().flat_map(|change| &change.set);
         let named = start.iter().chain(set).map(|(name, ..)| name.as_str());

@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 
 /// Runs the test cases of the program that its settings name, and adds their results; says what is missing.
 pub fn add(grounds: &Grounds, evidence: &mut Evidence, cx: Context) -> Result<(), Failure> {
-    if let Some(project) = grounds.subject.own_project() {
+    if let Some(project) = grounds.basis.subject.own_project() {
         let paths = project.test.files.iter();
         let paths = paths.map(|file| subject::near(project.at(Path::new(&file.text))));
         let mut files = match project.test.files.is_empty() {
@@ -29,7 +29,7 @@ pub fn add(grounds: &Grounds, evidence: &mut Evidence, cx: Context) -> Result<()
         note_unknown(project, &files, evidence);
         let is_own = |case: &plctest::Case| match &case.program {
             CaseProgram::File(file) => {
-                same_file::is_same_file(&file.path, &grounds.subject.file).unwrap_or(false)
+                same_file::is_same_file(&file.path, &grounds.basis.subject.file).unwrap_or(false)
             }
             CaseProgram::List(_) => false,
         };
@@ -135,15 +135,15 @@ fn run(
     let is_own = |covered: &Covered| {
         let path = covered.path.as_ref();
         path.is_some_and(|path| {
-            same_file::is_same_file(path, &grounds.subject.file).unwrap_or(false)
+            same_file::is_same_file(path, &grounds.basis.subject.file).unwrap_or(false)
         })
     };
     let programs: Vec<Covered> = programs.into_iter().filter(is_own).collect();
-    if grounds.args.mutants && !report.is_success() {
+    if grounds.basis.args.mutants && !report.is_success() {
         let why = "--mutants: all cases must pass before the program is changed";
         return Err(Failure::Because(why.to_string()));
     }
-    let mutants = grounds.args.mutants.then(|| {
+    let mutants = grounds.basis.args.mutants.then(|| {
         let programs = programs.iter();
         programs
             .map(|program| mutants_of(&suite, program))
