@@ -475,7 +475,10 @@ pub fn batch(modules: &[Module], in_c: bool) -> Vec<OutFile> {
         .replace("/* CASES */\n", &functions)
         .replace("    /* ENTRIES */\n", &entries);
     files.push(OutFile::new("main.c", main));
-    let parts = in_c.then(|| Parts::all(modules)).unwrap_or_default();
+    let parts = match in_c {
+        true => Parts::all(modules),
+        false => Parts::default(),
+    };
     let own = parts.paths(".c").map(String::from);
     sources.extend(own);
     files.extend(parts.files());
