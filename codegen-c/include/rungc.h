@@ -216,6 +216,33 @@ static inline bool plc_take(bool *memory)
     return plc_falling(memory, false);
 }
 
+/* Bits are read as words below. */
+typedef char plc_bool_is_one_byte[(sizeof(bool) == 1u) ? 1 : -1];
+
+/* Not 0 if any of `count` bits is on, 4 to 16 of them: two reads, which may overlap. */
+static inline uint64_t plc_any(const bool *bits, size_t count)
+{
+    if (count < 8u) {
+        uint32_t first;
+        uint32_t last;
+        (void)memcpy(&first, bits, sizeof first);
+        (void)memcpy(&last, bits + (count - sizeof last), sizeof last);
+        return first | last;
+    } else {
+        uint64_t first;
+        uint64_t last;
+        (void)memcpy(&first, bits, sizeof first);
+        (void)memcpy(&last, bits + (count - sizeof last), sizeof last);
+        return first | last;
+    }
+}
+
+/* Returns true if any of some neighbouring states is on, or has to be left: then their blocks run. */
+static inline bool plc_active(const bool *states, size_t count, const bool *memories, size_t number)
+{
+    return (plc_any(states, count) | plc_any(memories, number)) != 0u;
+}
+
 /* ---- Words ---------------------------------------------------------------------------------------------------------- */
 
 /* The low 16 bits as a signed number. */

@@ -36,6 +36,7 @@ mod retain;
 mod run_control;
 mod runtime;
 mod stations;
+mod steps;
 mod stmt;
 mod table;
 mod text;

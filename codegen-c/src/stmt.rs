@@ -115,6 +115,7 @@ impl Writer<'_, '_> {
             | Stmt::If(_)
             | Stmt::For { .. }
             | Stmt::Repeat(_)
+            | Stmt::Steps(_)
             | Stmt::Parts(_) => {}
         }
         code

@@ -258,6 +258,7 @@ impl<'a, 'm> Writer<'a, 'm> {
             } => self.branch(page, *cond, then, otherwise),
             Node::For { count, body } => self.repeat(page, *count, body),
             Node::Repeat(stations) => self.station_loop(page, stations),
+            Node::Steps { of, body } => self.steps(page, of, body),
             Node::Parts { parts, leaves } => self.parts(page, parts, *leaves),
             Node::Outlined(function) => self.outline(page, *function),
         }

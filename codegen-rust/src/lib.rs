@@ -25,6 +25,7 @@ mod host;
 mod machine;
 mod members;
 mod numeric;
+mod steps;
 mod stmt;
 mod storage;
 mod temps;

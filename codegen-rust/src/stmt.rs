@@ -79,6 +79,7 @@ impl Generator<'_> {
                 body.block(quote!(for _ in 0..#count), inner);
             }
             Node::Repeat(stations) => self.stations(body, stations),
+            Node::Steps { of, body: inner } => self.steps(body, of, inner),
             Node::Parts { parts, leaves } => self.parts(body, parts, *leaves),
             Node::Outlined(function) => body.code(self.outline(*function)),
         }
@@ -99,6 +100,7 @@ impl Generator<'_> {
             | Stmt::If(_)
             | Stmt::For { .. }
             | Stmt::Repeat(_)
+            | Stmt::Steps(_)
             | Stmt::Parts(_) => TokenStream::new(),
         }
     }

@@ -93,7 +93,7 @@ impl<'a, 'm> Classes<'a, 'm> {
             Node::Stmt(stmt) => matches!(stmt, Stmt::Return | Stmt::Goto(_) | Stmt::Watch { .. }),
             Node::Parts { leaves, .. } => *leaves,
             Node::Outlined(function) => self.plan.functions[*function].flow != Flow::Void,
-            Node::If { .. } | Node::For { .. } | Node::Repeat(_) => {
+            Node::If { .. } | Node::For { .. } | Node::Repeat(_) | Node::Steps { .. } => {
                 node.bodies().any(|body| self.jumps(body))
             }
         })
@@ -158,6 +158,7 @@ impl<'a, 'm> Classes<'a, 'm> {
             Node::Stmt(stmt) => self.slices_stmt(stmt),
             Node::If { cond, .. } => self.slices_expr(*cond),
             Node::Repeat(stations) => stations.body.iter().all(|node| self.slices_in_loop(node)),
+            Node::Steps { .. } => true,
             Node::Outlined(function) => !self.is_left_early(*function),
             Node::For { .. } | Node::Parts { .. } => false,
         }

@@ -4,7 +4,7 @@ use crate::fields::{PrintField, PrintStorage};
 use rungc_emit::plan::{Node, Plan};
 use rungc_emit::storage::{Field, Kind, Storage};
 use rungc_ir::Module;
-use rungc_ir::node::{Action, Edge, EdgeId, Expr, ExprId, FlagId, Place, Stmt};
+use rungc_ir::node::{Action, Edge, EdgeId, Expr, ExprId, FlagId, Place, Steps, Stmt};
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::operands;
 use rungc_models::runs::FIRST_SPECIAL;
@@ -43,6 +43,7 @@ impl Meeting<'_, '_> {
             Node::Stmt(stmt) => self.stmt(stmt),
             Node::Outlined(function) => self.function(*function),
             Node::Parts { parts, .. } => parts.iter().for_each(|&(_, part)| self.function(part)),
+            Node::Steps { of, .. } => self.steps(of),
             Node::If { .. } | Node::For { .. } | Node::Repeat(_) => {}
         }
         for body in node.bodies() {
@@ -128,10 +129,19 @@ impl Meeting<'_, '_> {
             | Stmt::If(_)
             | Stmt::For { .. }
             | Stmt::Repeat(_)
+            | Stmt::Steps(_)
             | Stmt::Return
             | Stmt::Parts(_)
             | Stmt::Goto(_)
             | Stmt::Watch { .. } => {}
+        }
+    }
+
+    fn steps(&mut self, steps: &Steps) {
+        let memories = steps.memory.0..steps.memory.0 + steps.memories;
+        self.met.edges.extend(memories.map(EdgeId));
+        for number in steps.first..steps.first + steps.states {
+            self.device(DeviceClass::S, number, false);
         }
     }
 

@@ -226,6 +226,8 @@ impl<'a, 'm> Slicer<'a, 'm> {
                 otherwise,
             } => self.branch(page, *cond, then, otherwise),
             Node::Repeat(stations) => self.stations(page, stations),
+            // Some instance is active for the most part.
+            Node::Steps { body, .. } => self.nodes(page, body),
             Node::Outlined(function) if self.mask.is_none() => {
                 let name = self.function_name(*function);
                 page.line(&format!("{name}(all);"));

@@ -72,6 +72,7 @@ fn always(classes: &Classes, nodes: &[Node], found: &mut BTreeMap<u32, TimerCoil
             | Node::If { .. }
             | Node::For { .. }
             | Node::Parts { .. }
+            | Node::Steps { .. }
             | Node::Repeat(_) => {}
         }
     }

@@ -12,6 +12,7 @@ pub mod part;
 pub mod random;
 pub mod rng;
 pub mod rows;
+pub mod sequences;
 pub mod shapes;
 pub mod stations;
 pub mod workspace;

@@ -48,6 +48,7 @@ pub fn user_of_edge(
         Node::Stmt(_)
         | Node::For { .. }
         | Node::Repeat(_)
+        | Node::Steps { .. }
         | Node::Parts { .. }
         | Node::Outlined(_) => None,
     }

@@ -3,7 +3,7 @@
 use crate::measure::Sizes;
 use crate::temps::{self, Temp};
 use rungc_ir::Module;
-use rungc_ir::node::{Body, Branch, ExprId, LabelId, Part, Stmt, TempId};
+use rungc_ir::node::{Body, Branch, ExprId, LabelId, Part, Steps, Stmt, TempId};
 use rungc_ir::walk::{called_functions, calls_runtime, for_exprs};
 use smallvec::SmallVec;
 use std::collections::{BTreeSet, HashMap};
@@ -106,6 +106,13 @@ pub enum Node<'m> {
     },
     /// A loop over stations: rungs that are alike.
     Repeat(Stations<'m>),
+    /// Blocks of a step ladder.
+    Steps {
+        /// States and memories of the blocks.
+        of: &'m Steps,
+        /// The blocks.
+        body: Vec<Node<'m>>,
+    },
     /// The choice between parts.
     Parts {
         /// State and function of each.
@@ -124,7 +131,7 @@ impl Node<'_> {
             Node::If {
                 then, otherwise, ..
             } => [then, otherwise],
-            Node::For { body, .. } => [body, &[]],
+            Node::For { body, .. } | Node::Steps { body, .. } => [body, &[]],
             Node::Repeat(stations) => [&stations.body, &[]],
             Node::Stmt(_) | Node::Parts { .. } | Node::Outlined(_) => [&[], &[]],
         };
@@ -138,7 +145,7 @@ impl Node<'_> {
             Node::Stmt(stmt) => for_exprs(stmt, &mut |&e| roots.push(e)),
             Node::If { cond, .. } => roots.push(*cond),
             Node::For { count, .. } => roots.push(*count),
-            Node::Repeat(_) | Node::Parts { .. } | Node::Outlined(_) => {}
+            Node::Repeat(_) | Node::Steps { .. } | Node::Parts { .. } | Node::Outlined(_) => {}
         }
         roots
     }
@@ -327,7 +334,11 @@ fn callees(nodes: &[Node], whole: &[Option<usize>]) -> Vec<usize> {
             Node::Stmt(Stmt::CallSub(root)) => found.extend(whole[*root as usize]),
             Node::Parts { parts, .. } => found.extend(parts.iter().map(|&(_, function)| function)),
             Node::Outlined(function) => found.push(*function),
-            Node::Stmt(_) | Node::If { .. } | Node::For { .. } | Node::Repeat(_) => {}
+            Node::Stmt(_)
+            | Node::If { .. }
+            | Node::For { .. }
+            | Node::Repeat(_)
+            | Node::Steps { .. } => {}
         }
         for body in node.bodies() {
             found.extend(callees(body, whole));
@@ -372,6 +383,7 @@ impl<'m> Builder<'m> {
             Node::Stmt(stmt) => {
                 matches!(stmt, Stmt::CallSub(root) if is_empty(module, *root as usize))
             }
+            Node::Steps { body, .. } => body.is_empty(),
             Node::For { .. } | Node::Repeat(_) | Node::Parts { .. } | Node::Outlined(_) => false,
         };
         let items = body.iter().map(|stmt| self.stmt(stmt, root, nesting));
@@ -407,6 +419,10 @@ impl<'m> Builder<'m> {
                 body: inner(&repeat.body),
                 steps: repeat.steps,
             }),
+            Stmt::Steps(steps) => Node::Steps {
+                of: steps,
+                body: inner(&steps.body),
+            },
             Stmt::Parts(parts) => {
                 weight += 2 * parts.len() as u64;
                 self.parts(parts, root, &mut leaves)

@@ -132,6 +132,7 @@ impl Scopes<'_> {
                     self.block(body);
                 }
                 Node::Repeat(stations) => self.block(&stations.body),
+                Node::Steps { body, .. } => self.block(body),
                 Node::Parts { .. } | Node::Outlined(_) => {}
             }
         }

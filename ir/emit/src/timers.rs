@@ -77,6 +77,7 @@ impl Coils {
                 | Node::If { .. }
                 | Node::For { .. }
                 | Node::Repeat(_)
+                | Node::Steps { .. }
                 | Node::Parts { .. }
                 | Node::Outlined(_) => {}
             }
@@ -85,6 +86,7 @@ impl Coils {
                 Node::Stmt(_)
                 | Node::If { .. }
                 | Node::For { .. }
+                | Node::Steps { .. }
                 | Node::Parts { .. }
                 | Node::Outlined(_) => iterations,
             };

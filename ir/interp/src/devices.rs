@@ -186,6 +186,13 @@ impl Devices {
         u32::try_from(i).ok().map(BitSlot)
     }
 
+    /// Returns true if any of `count` states S from `first` on, which follow each other, is on.
+    pub(crate) fn any_state(&self, first: u32, count: u32) -> bool {
+        let begin = self.bits.slot(Class::S, first);
+        let states = begin.and_then(|i| self.bits.cells.get(i..i + count as usize));
+        states.is_some_and(|states| states.contains(&true))
+    }
+
     /// The bit in a slot.
     pub(crate) fn bit_at(&self, slot: BitSlot) -> bool {
         self.bits.cells.get(slot.0 as usize) == Some(&true)

@@ -4,7 +4,7 @@ use crate::eval::{Value, float, int};
 use crate::machine::Machine;
 use rungc_ir::node::{
     Access, AccessKind, Action, Arg, Block, Branch, Call, Count, Counter32Coil, Edge, EdgeId,
-    ExprId, Fetch, IndexedCoil, LabelId, Part, Place, Repeat, Send, SetEntry, Stmt, TempId,
+    ExprId, Fetch, IndexedCoil, LabelId, Part, Place, Repeat, Send, SetEntry, Steps, Stmt, TempId,
     TimerCoil,
 };
 use rungc_models::runs::rt_class;
@@ -92,6 +92,11 @@ impl<'m> Machine<'m> {
                 body,
                 ..
             }) => return self.run_loop(*count, Some(*iteration), body, hal),
+            Stmt::Steps(steps) => {
+                if self.any_active(steps) {
+                    return self.run(&steps.body, hal);
+                }
+            }
             Stmt::CallSub(n) => self.call_sub(*n, hal),
             Stmt::Return => return Flow::Return,
             Stmt::Parts(parts) => return self.run_parts(parts, hal),
@@ -224,6 +229,13 @@ impl<'m> Machine<'m> {
         if let Some(function) = module.functions.get(function as usize) {
             self.run(&function.body, hal);
         }
+    }
+
+    fn any_active(&self, steps: &Steps) -> bool {
+        let memory = steps.memory.0 as usize;
+        let memories = self.edges.raw.get(memory..memory + steps.memories as usize);
+        memories.is_some_and(|memories| memories.contains(&true))
+            || self.devices.any_state(steps.first, steps.states)
     }
 
     fn edge(&mut self, edge: &Edge) {

@@ -6,8 +6,9 @@
 use crate::layout::Area;
 use crate::node::{
     Access, AccessKind, Action, Arg, BinOp, Block, Body, Branch, Call, CellId, Count,
-    Counter16Coil, Counter32Coil, Edge, Expr, ExprId, Fetch, FlagId, Function, FunctionKind,
-    IndexedCoil, Module, Part, Place, Repeat, Send, SetEntry, Stmt, SysValue, TableId, TimerCoil,
+    Counter16Coil, Counter32Coil, Edge, EdgeId, Expr, ExprId, Fetch, FlagId, Function,
+    FunctionKind, IndexedCoil, Module, Part, Place, Repeat, Send, SetEntry, Steps, Stmt, SysValue,
+    TableId, TimerCoil,
 };
 use rungc_rt::{EdgeKind, TimerKind};
 use std::fmt::Write as _;
@@ -116,6 +117,17 @@ impl Out<'_> {
                 return self.block(&format!("for {}", self.expr(*count)), body);
             }
             Stmt::Repeat(repeat) => return self.repeat(repeat),
+            Stmt::Steps(steps) => {
+                let Steps {
+                    first,
+                    states,
+                    memory: EdgeId(memory),
+                    memories,
+                    body,
+                } = steps;
+                let head = format!("steps S{first}[{states}] e{memory}[{memories}]");
+                return self.block(&head, body);
+            }
             Stmt::CallSub(n) => self.call_sub(*n),
             Stmt::Return => "return".into(),
             Stmt::Parts(parts) => return self.parts(parts),

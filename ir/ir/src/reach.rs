@@ -109,8 +109,21 @@ pub fn of_expr(model: &Model, expr: &Expr, found: &mut impl FnMut(Footprint)) {
 
 /// Reports the devices that a statement itself accesses, as [`of_action`] does.
 pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Footprint)) {
-    if let Stmt::Do(action) = stmt {
-        of_action(model, action, found);
+    match stmt {
+        Stmt::Do(action) => of_action(model, action, found),
+        Stmt::Steps(steps) => {
+            let first = Place::fixed(DeviceClass::S, steps.first);
+            found(Footprint::run(first, Some(steps.states), false));
+        }
+        Stmt::Network(_)
+        | Stmt::If(_)
+        | Stmt::For { .. }
+        | Stmt::Repeat(_)
+        | Stmt::CallSub(_)
+        | Stmt::Return
+        | Stmt::Parts(_)
+        | Stmt::Goto(_)
+        | Stmt::Watch { .. } => {}
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::node::{
     Action, Arg, BinOp, Block, Body, Branch, Expr, ExprId, FunctionKind, IndexedCoil, LabelId,
-    Module, Place, SetEntry, Stmt, SysValue, TempId, Ty,
+    Module, Place, SetEntry, Steps, Stmt, SysValue, TempId, Ty,
 };
 use crate::reach::{self, Footprint};
 use crate::walk::{assigned, callees, for_exprs, operands};
@@ -186,6 +186,12 @@ impl Checker<'_> {
             }) => self.branches(then, otherwise),
             Stmt::For { body, .. } => {
                 self.body(body)?;
+                Ok(true)
+            }
+            Stmt::Steps(Steps { body, .. }) => {
+                let begin = self.log.len();
+                self.body(body)?;
+                self.forget(begin);
                 Ok(true)
             }
             Stmt::Repeat(repeat) => {
@@ -381,6 +387,10 @@ impl Checker<'_> {
             Stmt::If(Branch { cond, .. }) => is(cond, Ty::Bit),
             Stmt::For { count, .. } => is(count, Ty::I16),
             Stmt::Repeat(ref repeat) => repeat.count > 1 && temp_is(repeat.iteration, Ty::I32),
+            Stmt::Steps(ref steps) => {
+                let end = steps.memory.0.saturating_add(steps.memories);
+                steps.states > 0 && steps.memories > 0 && end <= module.edges
+            }
             Stmt::CallSub(_)
             | Stmt::Return
             | Stmt::Parts(_)

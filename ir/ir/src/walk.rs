@@ -3,7 +3,7 @@
 use crate::node::{
     Access, Action, Arg, Block, Body, Branch, Call, Count, Counter16Coil, Counter32Coil, Edge,
     Expr, ExprId, Fetch, FunctionKind, IndexedCoil, Module, Part, Place, Repeat, Send, SetEntry,
-    Stmt, TempId, TimerCoil,
+    Steps, Stmt, TempId, TimerCoil,
 };
 
 /// The expressions that an expression evaluates.
@@ -186,6 +186,7 @@ macro_rules! for_exprs {
                 Stmt::For { count, .. } => f(count),
                 Stmt::Network(_)
                 | Stmt::Repeat(_)
+                | Stmt::Steps(_)
                 | Stmt::CallSub(_)
                 | Stmt::Return
                 | Stmt::Parts(_)
@@ -260,9 +261,9 @@ macro_rules! bodies {
         pub fn $name(stmt: &$($mutable)? Stmt) -> impl Iterator<Item = &$($mutable)? Body> {
             let (own, parts): ([Option<&$($mutable)? Body>; 2], &$($mutable)? [Part]) = match stmt {
                 Stmt::If(Branch { then, otherwise, .. }) => ([Some(then), Some(otherwise)], &$($mutable)? []),
-                Stmt::For { body, .. } | Stmt::Repeat(Repeat { body, .. }) => {
-                    ([Some(body), None], &$($mutable)? [])
-                }
+                Stmt::For { body, .. }
+                | Stmt::Repeat(Repeat { body, .. })
+                | Stmt::Steps(Steps { body, .. }) => ([Some(body), None], &$($mutable)? []),
                 Stmt::Parts(parts) => ([None, None], parts),
                 Stmt::Network(_)
                 | Stmt::Do(_)

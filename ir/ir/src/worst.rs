@@ -201,6 +201,7 @@ impl<'m> Finder<'m> {
                 let iteration = self.body(body);
                 cost.plus(iteration.times(u64::from(*count)))
             }
+            Stmt::Steps(steps) => cost.plus(self.body(&steps.body)),
             Stmt::Do(Action::Block(block)) => {
                 let (_, count) = block.written();
                 cost.plus(Cost {

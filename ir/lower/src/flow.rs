@@ -6,7 +6,7 @@ use super::{Lowerer, basic_of};
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
 use rungc_ir::node::{
-    Action, BinOp, Body, Branch, CellId, Expr, ExprId, FunctionKind, Stmt, TempId,
+    Action, BinOp, Body, Branch, CellId, Expr, ExprId, FunctionKind, Steps, Stmt, TempId,
 };
 use rungc_rt::CmpOp;
 use rungc_syntax::{DeviceClass, Index, OperandKind, codes};
@@ -67,6 +67,8 @@ pub(super) enum Open {
     Loop { count: ExprId, outer: Vec<Item> },
     /// STL.
     State { cond: ExprId, outer: Vec<Item> },
+    /// Blocks that are left out while they are off.
+    Steps { steps: Steps, outer: Vec<Item> },
 }
 
 impl Flow {
@@ -457,7 +459,7 @@ impl Lowerer<'_> {
     }
 
     /// Ends the innermost open body.
-    fn close(&mut self) {
+    pub(super) fn close(&mut self) {
         match self.open.pop() {
             Some(Open::Loop { count, outer }) => {
                 let items = std::mem::replace(&mut self.out, outer);
@@ -479,6 +481,11 @@ impl Lowerer<'_> {
                 });
                 self.push_nested(stmt, escapes);
                 self.out.extend(labels);
+            }
+            Some(Open::Steps { steps, outer }) => {
+                let items = std::mem::replace(&mut self.out, outer);
+                let (body, escapes) = structure(items);
+                self.push_nested(Stmt::Steps(Steps { body, ..steps }), escapes);
             }
             None => {}
         }

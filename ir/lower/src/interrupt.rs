@@ -282,6 +282,11 @@ impl Lowerer<'_> {
         }
     }
 
+    /// Returns true if interrupts are taken while the program runs.
+    pub(super) fn takes_interrupts(&self) -> bool {
+        self.interrupts.function.is_some()
+    }
+
     /// Here interrupts are taken.
     pub(super) fn interruptible(&mut self) {
         if let Some((_, function)) = self.interrupts.function {

@@ -51,6 +51,7 @@ mod resets;
 mod shared_timers;
 mod signals;
 mod special;
+mod step_groups;
 mod stl;
 mod system;
 mod times;
@@ -295,6 +296,7 @@ impl<'a> Lowerer<'a> {
         self.limit_comparisons();
         self.find_exclusive();
         self.find_interrupts();
+        self.guard_steps();
         self.limit_calls();
         for region in 0..self.flow.regions.len() {
             let body = self.region(region);

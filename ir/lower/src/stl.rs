@@ -5,6 +5,7 @@
 //! that source and target are both on for one scan (h1u-h2u-programming §4.2). The mark is an edge memory of the state.
 
 use super::operand::fixed;
+use super::step_groups::Guards;
 use super::{Lowerer, basic_of};
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
@@ -29,6 +30,8 @@ pub(super) struct Steps {
     begun: FxHashSet<u32>,
     /// The states of the block at hand; none outside.
     current: Vec<u32>,
+    /// Tests that leave blocks out.
+    pub(super) guards: Guards,
 }
 
 /// The S device that an instruction names first.
@@ -47,6 +50,7 @@ impl Steps {
             marks: FxHashMap::default(),
             begun: FxHashSet::default(),
             current: Vec::new(),
+            guards: Guards::default(),
         };
         let mut row: Vec<u32> = Vec::new();
         let mut in_row = false;
@@ -74,6 +78,16 @@ impl Steps {
         }
         steps
     }
+
+    /// Returns true if a block leaves a state by a transition.
+    pub(super) fn is_left(&self, state: u32) -> bool {
+        self.left.contains(&state)
+    }
+
+    /// Sets the mark of a state.
+    pub(super) fn set_mark(&mut self, state: u32, mark: EdgeId) {
+        self.marks.insert(state, mark);
+    }
 }
 
 impl Lowerer<'_> {
@@ -93,6 +107,7 @@ impl Lowerer<'_> {
             }
             i += 1;
         }
+        self.open_tests();
         for &state in &states {
             self.leave_if_marked(state);
         }
@@ -106,8 +121,8 @@ impl Lowerer<'_> {
             return;
         };
         let bus = self.settled(on);
-        let edge = self.new_edge();
-        let left = self.edge(edge, EdgeKind::Falling, bus);
+        let was_on = self.was_on();
+        let left = self.edge(was_on, EdgeKind::Falling, bus);
         let runs = self.or(bus, left);
         self.open_state(runs);
         self.logic.bus = Some(bus);
@@ -117,7 +132,7 @@ impl Lowerer<'_> {
     /// Turns a state off that a transition left in the scan before. It may have several blocks (a merge of branches has
     /// its own one): the first decides.
     fn leave_if_marked(&mut self, state: u32) {
-        if !self.steps.begun.insert(state) || !self.steps.left.contains(&state) {
+        if !self.steps.begun.insert(state) || !self.steps.is_left(state) {
             return;
         }
         let mark = self.mark(state);
@@ -140,6 +155,7 @@ impl Lowerer<'_> {
     /// STL, RET or the end of the function: ends the block at hand.
     pub(super) fn close_state(&mut self) {
         self.close_open_state();
+        self.close_tests();
         if !self.steps.current.is_empty() {
             self.steps.current.clear();
             self.logic.bus = None;
@@ -180,7 +196,7 @@ impl Lowerer<'_> {
 
     /// A state that is set again is not left.
     pub(super) fn keep_state(&mut self, device: Device) {
-        if device.class == DeviceClass::S && self.steps.left.contains(&device.number) {
+        if device.class == DeviceClass::S && self.steps.is_left(device.number) {
             let mark = self.mark(device.number);
             let off = self.bit_const(false);
             self.edge(mark, EdgeKind::Rising, off);

@@ -7,7 +7,7 @@ use super::basic_of;
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
 use rungc_ir::node::{
-    Action, Body, Branch, Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Stmt,
+    Action, Body, Branch, Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Steps, Stmt,
     SysValue,
 };
 use rungc_ir::walk::{bodies_mut, statements};
@@ -130,6 +130,11 @@ impl Watcher<'_> {
                     first.max(second)
                 }
                 Stmt::For { count, body } => self.repeated(count, body, &mut out),
+                Stmt::Steps(steps) => {
+                    let (body, taken) = self.body(steps.body);
+                    out.push(Stmt::Steps(Steps { body, ..steps }));
+                    taken
+                }
                 Stmt::Parts(parts) => self.parts(parts, &mut out),
                 Stmt::CallSub(number) => {
                     out.push(stmt);

@@ -19,6 +19,14 @@ impl Edge {
     }
 }
 
+/// Returns true if any of some states of a step ladder, or of the memories of their blocks, is on.
+#[inline]
+pub fn any_active(states: &[bool], memories: &[Edge]) -> bool {
+    // All are read: a fixed number of them are a word or two.
+    let states = states.iter().fold(false, |any, on| any | on);
+    memories.iter().fold(states, |any, memory| any | memory.0)
+}
+
 /// A rising or a falling edge.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 pub enum EdgeKind {

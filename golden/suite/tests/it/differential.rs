@@ -15,6 +15,7 @@ use rungc_golden::part::Part;
 use rungc_golden::random::{self, program};
 use rungc_golden::rng::Rng;
 use rungc_golden::rows::{self, Occurring};
+use rungc_golden::sequences;
 use rungc_golden::shapes::Shapes;
 use rungc_golden::stations;
 use rungc_interp::{Machine, Observer};
@@ -96,10 +97,13 @@ fn compiled(text: &str, seed: u64, model: ModelId, optimise: bool) -> Result<Mod
 
 /// Both modules of a program.
 fn sample(text: String, seed: u64, model: ModelId) -> Result<Sample, String> {
+    // What blocks of a step ladder do while they are off is compared with leaving them out.
+    let mut plain = compiled(&text, seed, model, false)?;
+    sequences::execute_all_blocks(&mut plain);
     Ok(Sample {
         seed,
         optimised: compiled(&text, seed, model, true)?,
-        plain: compiled(&text, seed, model, false)?,
+        plain,
         text,
     })
 }
@@ -114,6 +118,7 @@ fn samples(seed: u64, count: u64) -> Vec<Sample> {
         let (model, pool) = &pools[(seed % pools.len() as u64) as usize];
         let text = match seed % 9 {
             0 => stations::program(seed),
+            1 => sequences::program(seed),
             _ => program(seed, *model, pool, 8 + (seed % 20) as u32),
         };
         match sample(text, seed, *model) {
@@ -263,6 +268,9 @@ fn events(rng: &mut Rng, module: &Module, first: bool) -> Vec<Request> {
                 }
                 DeviceClass::D if !special && rng.percent(if first { 60 } else { 2 }) => {
                     events.push(Request::SetWord(Class::D, number, rng.value(16) as i16));
+                }
+                DeviceClass::S if rng.percent(1) => {
+                    events.push(Request::SetBit(Class::S, number, rng.percent(50)));
                 }
                 DeviceClass::M if !special && rng.percent(1) => {
                     events.push(Request::SetBit(Class::M, number, rng.percent(50)));

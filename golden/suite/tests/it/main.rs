@@ -33,6 +33,7 @@ mod saved;
 mod scan_time;
 mod shape;
 mod snapshots;
+mod step_ladders;
 mod suite;
 mod values;
 mod verify;

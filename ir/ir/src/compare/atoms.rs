@@ -248,6 +248,8 @@ impl<'a> Reader<'a> {
                 let [inside, _] = self.header(&format!("repeat {}", repeat.count), None, context);
                 self.body(&repeat.body, inside, false);
             }
+            // What it leaves out has no effect.
+            Stmt::Steps(steps) => self.body(&steps.body, context, false),
             Stmt::Parts(parts) => {
                 let [inside, _] = self.header("parts", None, context);
                 for part in parts {

@@ -333,6 +333,22 @@ pub enum Action {
     },
 }
 
+/// Blocks of a step ladder. Executing the body has no effect while all these states and memories are off, so an engine
+/// leaves it out then: a scan costs what is active, not what the program has.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Steps {
+    /// Number of the first state S.
+    pub first: u32,
+    /// Number of states from it on, at least 1; they follow each other in the model.
+    pub states: u32,
+    /// First of the memories of their blocks: whether a state is being left, and whether its block was on.
+    pub memory: EdgeId,
+    /// Number of these memories, at least 1.
+    pub memories: u32,
+    /// The blocks.
+    pub body: Body,
+}
+
 /// A statement: an action, or what decides which statements are executed.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Stmt {
@@ -351,6 +367,8 @@ pub enum Stmt {
     },
     /// Executes a body for each of several equal sets of devices.
     Repeat(Repeat),
+    /// Executes blocks of a step ladder.
+    Steps(Steps),
     /// Calls [`Module::functions`](super::Module::functions)`[n]`.
     CallSub(u32),
     /// Leaves the function (SRET reached by a jump, CJ to P63 in a subroutine, …).

@@ -4,7 +4,7 @@ use super::effects::writes;
 use super::fold::Arena;
 use super::inline::{Counts, Temps};
 use crate::node::{
-    Action, Body, Branch, Expr, ExprId, LabelId, Module, Part, Repeat, Stmt, TempId,
+    Action, Body, Branch, Expr, ExprId, LabelId, Module, Part, Repeat, Steps, Stmt, TempId,
 };
 use crate::walk::{assigned, bodies, for_exprs, for_exprs_mut, operands, operands_mut, statements};
 use rustc_hash::FxHashSet;
@@ -144,6 +144,13 @@ impl Rewriter<'_> {
                 let body = self.body(repeat.body);
                 self.temps.set_available(Vec::new());
                 out.push(Stmt::Repeat(Repeat { body, ..repeat }));
+            }
+            Stmt::Steps(steps) => {
+                self.settle(out);
+                self.temps.set_available(Vec::new());
+                let body = self.body(steps.body);
+                self.temps.set_available(Vec::new());
+                out.push(Stmt::Steps(Steps { body, ..steps }));
             }
             Stmt::Parts(parts) => {
                 self.settle(out);

@@ -370,6 +370,8 @@ impl<'m> Walk<'m> {
             }
             Stmt::If(_) => return Some(state),
             Stmt::For { count, ref body } => return self.repeat(count, body, state),
+            // What it leaves out has no effect.
+            Stmt::Steps(ref steps) => return self.body(&steps.body, Some(state)),
             Stmt::CallSub(n) => return self.call(n as usize, state),
             Stmt::Return => {
                 self.returns = join(self.returns.take(), Some(state));

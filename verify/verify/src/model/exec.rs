@@ -124,6 +124,8 @@ impl Encoder<'_> {
                 body,
                 guard,
             ),
+            // What it leaves out has no effect.
+            Stmt::Steps(steps) => self.run(&steps.body, guard),
             Stmt::CallSub(function) => {
                 self.function(*function as usize, guard);
                 guard

@@ -1,0 +1,170 @@
+//! Step ladders cost what is active: blocks whose states are off are left out, and leaving them out changes nothing.
+
+use rungc_golden::rng::Rng;
+use rungc_golden::{module, sequences};
+use rungc_interp::{Machine, Observer};
+use rungc_ir::Module;
+use rungc_ir::node::{Steps, Stmt};
+use rungc_ir::walk::statements;
+use rungc_models::ModelId;
+use rungc_rt::{Class, NoHal, Plc, Program};
+use std::fmt::Write;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// States of the random programs, timers, relays and outputs that they name.
+const COMPARED: [(Class, u32); 5] = [
+    (Class::S, 110),
+    (Class::T, 64),
+    (Class::M, 40),
+    (Class::Y, 8),
+    (Class::C, 1),
+];
+
+fn devices(machine: &Machine) -> Vec<(Class, u32, Option<bool>, Option<i16>)> {
+    let numbers = COMPARED.iter();
+    let all = numbers.flat_map(|&(class, count)| (0..count).map(move |n| (class, n)));
+    let registers = [0, 10, 11].map(|n| (Class::D, n));
+    all.chain(registers)
+        .map(|(class, n)| (class, n, machine.bit(class, n), machine.word(class, n)))
+        .collect()
+}
+
+/// The tests of a module: number of states of each.
+fn tests(module: &Module) -> Vec<u32> {
+    let mut found = Vec::new();
+    for function in &module.functions {
+        statements(&function.body, &mut |stmt| {
+            if let Stmt::Steps(Steps { states, .. }) = stmt {
+                found.push(*states);
+            }
+        });
+    }
+    found
+}
+
+#[test]
+fn blocks_that_are_left_out_would_have_no_effect() {
+    let (mut single, mut groups) = (0, 0);
+    for seed in 0..40 {
+        let text = sequences::program(seed);
+        let guarded = module(&text, ModelId::Fx3u);
+        single += tests(&guarded)
+            .iter()
+            .filter(|&&states| states == 1)
+            .count();
+        groups += tests(&guarded).iter().filter(|&&states| states > 1).count();
+        let mut whole = guarded.clone();
+        sequences::execute_all_blocks(&mut whole);
+        assert!(tests(&whole).is_empty());
+        let mut machines = [Machine::new(&guarded), Machine::new(&whole)];
+        let mut rng = Rng::new(seed);
+        for scan in 0..150 {
+            let events = random_events(&mut rng);
+            for machine in &mut machines {
+                for &(class, number, on) in &events {
+                    machine.set_bit(class, number, on);
+                    if class == Class::X {
+                        machine.input_edge(&mut NoHal, number, on);
+                    }
+                }
+                match scan {
+                    70 => machine.set_running(false),
+                    73 => machine.set_running(true),
+                    _ => {}
+                }
+                machine.scan(&mut NoHal, 40 * scan, 10_000);
+            }
+            let [guarded, whole] = &machines;
+            assert_eq!(
+                devices(guarded),
+                devices(whole),
+                "scan {scan}, seed {seed}:\n{text}"
+            );
+        }
+    }
+    assert!(
+        single > 400 && groups > 25,
+        "{single} blocks, {groups} groups"
+    );
+}
+
+/// Inputs that change, and states that something outside writes.
+fn random_events(rng: &mut Rng) -> Vec<(Class, u32, bool)> {
+    let mut events = Vec::new();
+    for input in 0..8 {
+        if rng.percent(20) {
+            events.push((Class::X, input, rng.percent(50)));
+        }
+    }
+    if rng.percent(10) {
+        events.push((Class::S, 20 + rng.below(80), rng.percent(60)));
+    }
+    events
+}
+
+/// Sequences of eleven states, which hand on by inputs.
+fn sequences_of_eleven(count: u32) -> String {
+    let mut text = String::from("LD M8002\n");
+    for sequence in 0..count {
+        let _ = writeln!(text, "SET S{}", 20 + 11 * sequence);
+    }
+    for state in 20..20 + 11 * count {
+        let next = if (state - 20) % 11 == 10 {
+            state - 10
+        } else {
+            state + 1
+        };
+        let relay = 1000 + state;
+        let _ = write!(text, "STL S{state}\nOUT M{relay}\nLD X000\nSET S{next}\n");
+    }
+    text + "RET\nEND\n"
+}
+
+/// Counts statements that are executed.
+struct Counter(Arc<AtomicU64>);
+
+impl Observer for Counter {
+    fn before(&mut self, _: &Machine, _: &Stmt) {
+        self.0.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+#[test]
+fn a_scan_costs_what_is_active() {
+    let module = module(&sequences_of_eleven(14), ModelId::Fx3u);
+    let count = Arc::new(AtomicU64::new(0));
+    let mut machine = Machine::new(&module);
+    machine.scan(&mut NoHal, 0, 0);
+    machine.observe(Box::new(Counter(Arc::clone(&count))));
+    machine.scan(&mut NoHal, 10, 0);
+    // 154 states in 20 groups, 14 of which have an active one: a test of each block of these, and what is active.
+    let executed = count.load(Ordering::Relaxed);
+    assert!((200..400).contains(&executed), "{executed} statements");
+}
+
+#[test]
+fn neighbours_make_groups_of_about_the_same_size() {
+    let of = |count| {
+        let mut found = tests(&module(&sequences_of_eleven(count), ModelId::Fx3u));
+        found.retain(|&states| states > 1);
+        found
+    };
+    assert_eq!(of(1), [6, 5]);
+    assert_eq!(of(2), [8, 7, 7]);
+}
+
+/// The lines of an emitted file from the first of its networks on.
+fn networks(files: impl Iterator<Item = (String, String)>, name: &str) -> String {
+    let (_, text) = files.into_iter().find(|(path, _)| path == name).unwrap();
+    let lines = text.lines().skip_while(|line| !line.contains("step 0"));
+    lines.take(64).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn emitted_blocks_are_tested_in_groups() {
+    let module = module(&sequences_of_eleven(1), ModelId::Fx3u);
+    let c = rungc_codegen_c::emit(&module, &rungc_codegen_c::Options::default());
+    let c = c.into_iter().map(|f| (f.path, f.contents));
+    insta::assert_snapshot!("groups_c", networks(c, "test.c"));
+}
