@@ -336,7 +336,7 @@ fn restore_one<P: Program + ?Sized, E>(
     let [b0, b1, b2, b3, b4] = bytes;
     let word = i16::from_le_bytes([b0, b1]);
     let contacts = program.retained().contacts;
-    let mut set_states = |program: &mut P, states: u8| {
+    let set_states = |program: &mut P, states: u8| {
         program.set_reset(class, number, states & RESET != 0);
         program.set_bit(class, number, contacts && states & CONTACT != 0)
     };
