@@ -15,6 +15,10 @@ impl Writer<'_, '_> {
     /// A run of devices is copied or filled; nothing is written of one that is not stored.
     pub(crate) fn block(&mut self, code: &mut Code, block: Block) {
         let (to, count) = block.written();
+        let has_index = |place: Place| place.index.is_some();
+        if has_index(to) || block.source().is_some_and(has_index) {
+            return self.indexed_block(code, block);
+        }
         let words = matches!(to.class, DeviceClass::D | DeviceClass::R);
         let kind = if words { "words" } else { "bits" };
         let Some(target) = self.run(to, count) else {
@@ -27,7 +31,7 @@ impl Writer<'_, '_> {
                     code.open("(");
                     code.push_str(&target);
                     code.argument(source);
-                    code.argument(count);
+                    self.length(code, block);
                     code.close(");");
                 }
             }
@@ -35,10 +39,62 @@ impl Writer<'_, '_> {
                 let _ = write!(code.text(), "plc_fill_{kind}");
                 code.open("(");
                 code.push_str(&target);
-                code.argument(count);
+                self.length(code, block);
                 self.last_argument(code, value);
             }
         }
+    }
+
+    /// The number of devices as an argument, a `size_t`.
+    fn length(&mut self, code: &mut Code, block: Block) {
+        match block.length() {
+            None => code.argument(block.written().1),
+            Some(length) => {
+                code.comma();
+                code.push_str("(size_t)");
+                self.expr(code, length, Around::Unary);
+            }
+        }
+    }
+
+    /// A block that begins where an index leads.
+    fn indexed_block(&mut self, code: &mut Code, block: Block) {
+        let (to, count) = block.written();
+        let source = block.source();
+        self.helpers.block(to.class, source.map(|from| from.class));
+        for place in [Some(to), source].into_iter().flatten() {
+            if place.index.is_none() {
+                self.helpers.reach(place.class, place.number, count);
+            }
+        }
+        let name = &self.module.name;
+        let class = to.class.prefix();
+        let _ = match source {
+            Some(from) if from.class == to.class => write!(code.text(), "{name}_copy_{class}"),
+            Some(from) => write!(
+                code.text(),
+                "{name}_copy_{}_to_{class}",
+                from.class.prefix()
+            ),
+            None => write!(code.text(), "{name}_fill_{class}"),
+        };
+        code.open("(plc");
+        for place in [Some(to), source].into_iter().flatten() {
+            code.comma();
+            self.number(code, &place);
+        }
+        match block.length() {
+            None => code.argument(count),
+            Some(length) => {
+                code.comma();
+                self.expr(code, length, Around::Exact);
+            }
+        }
+        if let Block::Fill { value, .. } = block {
+            code.comma();
+            self.expr(code, value, Around::Exact);
+        }
+        code.close(");");
     }
 
     /// A pointer to the first of some devices that are side by side.

@@ -217,7 +217,11 @@ impl Writer<'_, '_> {
             Expr::Narrow(a) => self.narrow(out, *a, around),
             Expr::HighWord(a) => self.call(out, "plc_high", *a),
             Expr::BitToInt(a) => self.bit_to_int(out, *a, around),
-            Expr::InRange { place, count } => self.in_range(out, place, *count),
+            Expr::InRange {
+                place,
+                count,
+                length,
+            } => self.in_range(out, place, *count, *length),
         }
     }
 
@@ -533,8 +537,8 @@ impl Writer<'_, '_> {
         }
     }
 
-    fn in_range(&mut self, out: &mut Code, place: &Place, count: u32) {
-        if place.index.is_none() {
+    fn in_range(&mut self, out: &mut Code, place: &Place, count: u32, length: Option<ExprId>) {
+        if place.index.is_none() && length.is_none() {
             let there = self
                 .module
                 .model
@@ -547,7 +551,13 @@ impl Writer<'_, '_> {
         let _ = write!(self.call_in(out).text(), "{}_has_{class}", self.module.name);
         out.open("(");
         self.number(out, place);
-        out.argument(count);
+        match length {
+            None => out.argument(count),
+            Some(length) => {
+                out.comma();
+                self.expr(out, length, Around::Exact);
+            }
+        }
         out.close(")");
     }
 }

@@ -1,5 +1,7 @@
 //! Functions of a program for devices whose number is only known at run time, emitted where the program indexes.
 
+mod blocks;
+
 use crate::code::Code;
 use crate::devices::run_timer;
 use crate::fields::{PrintField, PrintStorage};
@@ -15,6 +17,8 @@ use std::fmt::Write;
 enum Helper {
     /// Existence of devices.
     Has,
+    /// Address of a special register.
+    Special,
     /// Reads a contact, a value or a 32-bit value.
     Get(&'static str),
     /// Writes one.
@@ -27,12 +31,20 @@ enum Helper {
     Reset,
     /// OUT of a timer or a 16-bit counter.
     Out,
+    /// Address of a run of devices.
+    Run,
+    /// Copies a run of devices of this class to another one.
+    Copy(DeviceClass),
+    /// Fills a run of devices.
+    Fill,
 }
 
 /// The functions that a program needs.
 #[derive(Default)]
 pub(crate) struct Helpers {
     needed: BTreeSet<(Helper, DeviceClass)>,
+    /// Runs of devices without an index that are in a block with devices that an index leads to.
+    named: BTreeSet<(DeviceClass, u32, u32)>,
 }
 
 impl Helpers {
@@ -44,17 +56,11 @@ impl Helpers {
     /// `motor_word_D`: `bit`, `word` or `long` (the 32 bits of a counter, or a pair).
     pub fn get(&mut self, what: &'static str, class: DeviceClass) {
         self.needed.insert((Helper::Get(what), class));
-        if what == "long" {
-            self.get("word", class);
-        }
     }
 
     /// `motor_put_word_D`.
     pub fn put(&mut self, what: &'static str, class: DeviceClass) {
         self.needed.insert((Helper::Put(what), class));
-        if what == "long" {
-            self.put("word", class);
-        }
     }
 
     /// `motor_bits_M`.
@@ -79,13 +85,19 @@ impl Helpers {
         self.needed.insert((Helper::Out, class));
     }
 
-    /// Writes them.
-    pub fn write(&self, out: &mut String, module: &Module, fields: &Storage) {
+    /// Writes them, each after those that it calls.
+    pub fn write(mut self, out: &mut String, module: &Module, fields: &Storage) {
         let printer = Printer {
             name: &module.name,
             module,
             fields,
+            by_index: DeviceClass::ALL.map(|class| match self.is_needed(class) {
+                true => reach::by_index(module, class),
+                false => Vec::new(),
+            }),
+            named: std::mem::take(&mut self.named),
         };
+        self.add_called(&printer);
         // Those of 32-bit values call those of words.
         let is_long = |helper| matches!(helper, Helper::Get("long") | Helper::Put("long"));
         for long in [false, true] {
@@ -96,10 +108,22 @@ impl Helpers {
     }
 }
 
+/// Returns true if the devices of a class are bits.
+fn is_bit(class: DeviceClass) -> bool {
+    matches!(
+        class,
+        DeviceClass::X | DeviceClass::Y | DeviceClass::M | DeviceClass::S
+    )
+}
+
 struct Printer<'a> {
     name: &'a str,
     module: &'a Module,
     fields: &'a Storage<'a>,
+    /// Runs of devices that indexes lead to, by class.
+    by_index: [Vec<(u32, u32)>; DeviceClass::ALL.len()],
+    /// [`Helpers::named`].
+    named: BTreeSet<(DeviceClass, u32, u32)>,
 }
 
 impl Printer<'_> {
@@ -145,6 +169,10 @@ impl Printer<'_> {
                 writeln!(out, "}}\n")
             }
             Helper::Out => self.out(out, class),
+            Helper::Special => self.special(out, class),
+            Helper::Run => self.run(out, class),
+            Helper::Copy(from) => self.copy(out, from, class),
+            Helper::Fill => self.fill(out, class),
         };
     }
 
@@ -211,43 +239,9 @@ impl Printer<'_> {
         writeln!(out, ";\n}}\n")
     }
 
-    /// The 32-bit value of a counter or a pair.
-    fn get_long(&self, out: &mut String, class: DeviceClass) -> std::fmt::Result {
-        let (name, c) = (self.name, class.prefix());
-        let _ = write!(
-            out,
-            "/* The 32-bit value of {c} n, which exists. */\n\
-             static inline int32_t {name}_long_{c}({name}_plc *plc, int32_t n)\n{{\n"
-        );
-        self.each(out, class, Some(Kind::Counter32), |out, device| {
-            let _ = write!(out, "return {device}.value;");
-        });
-        writeln!(
-            out,
-            "    return plc_join({name}_word_{c}(plc, n + 1), {name}_word_{c}(plc, n));\n}}\n"
-        )
-    }
-
-    /// Sets it.
-    fn put_long(&self, out: &mut String, class: DeviceClass) -> std::fmt::Result {
-        let (name, c) = (self.name, class.prefix());
-        let _ = write!(
-            out,
-            "/* Sets the 32-bit value of {c} n, which exists. */\n\
-             static inline void {name}_put_long_{c}({name}_plc *plc, int32_t n, int32_t value)\n{{\n"
-        );
-        self.each(out, class, Some(Kind::Counter32), |out, device| {
-            let _ = write!(out, "{device}.value = value; return;");
-        });
-        writeln!(
-            out,
-            "    {name}_put_word_{c}(plc, n, plc_low(value));\n    \
-             {name}_put_word_{c}(plc, n + 1, plc_high(value));\n}}\n"
-        )
-    }
-
     fn get(&self, out: &mut String, class: DeviceClass, bit: bool) {
         let (name, c) = (self.name, class.prefix());
+        let aliased = !bit && !self.aliases(class).is_empty();
         let (ty, what, zero, part) = if bit {
             ("bool", "State", "false", ".done")
         } else {
@@ -256,8 +250,9 @@ impl Printer<'_> {
         let _ = write!(
             out,
             "/* {what} of {c} n, which exists. */\n\
-             static inline {ty} {name}_{}_{c}(const {name}_plc *plc, int32_t n)\n{{\n",
+             static inline {ty} {name}_{}_{c}({}{name}_plc *plc, int32_t n)\n{{\n",
             if bit { "bit" } else { "word" },
+            if aliased { "" } else { "const " },
         );
         let part = if matches!(class, DeviceClass::T | DeviceClass::C) {
             part
@@ -271,7 +266,14 @@ impl Printer<'_> {
                 _ => write!(out, "return {device}{part};"),
             };
         });
-        let _ = writeln!(out, "    return {zero};\n}}\n");
+        let _ = match aliased {
+            true => writeln!(
+                out,
+                "    const int16_t *const special = {name}_special_{c}(plc, n);\n    \
+                 return special != NULL ? *special : {zero};\n}}\n"
+            ),
+            false => writeln!(out, "    return {zero};\n}}\n"),
+        };
     }
 
     fn put(&self, out: &mut String, class: DeviceClass, bit: bool) {
@@ -292,12 +294,19 @@ impl Printer<'_> {
         self.each(out, class, None, |out, device| {
             let _ = write!(out, "{device}{part} = value; return;");
         });
+        if !bit && !self.aliases(class).is_empty() {
+            let _ = write!(
+                out,
+                "    int16_t *const special = {name}_special_{c}(plc, n);\n    \
+                 if (special != NULL) {{\n        *special = value;\n    }}\n"
+            );
+        }
         let _ = writeln!(out, "}}\n");
     }
 
     /// Keeps the compiler quiet where nothing of a class is stored.
     fn unused(&self, out: &mut String, class: DeviceClass, value: bool) {
-        if self.reached(class).next().is_none() && self.aliases(class, None).is_empty() {
+        if self.reached(class).next().is_none() && self.aliases(class).is_empty() {
             out.push_str("    (void)plc;\n    (void)n;\n");
             out.push_str(if value { "    (void)value;\n" } else { "" });
         }
@@ -305,7 +314,7 @@ impl Printer<'_> {
 
     /// The arrays that an index leads to.
     fn reached(&self, class: DeviceClass) -> impl Iterator<Item = &Field> {
-        let runs = reach::by_index(self.module, class);
+        let runs = &self.by_index[class as usize];
         let arrays = self.fields.of_class(class).iter();
         arrays.filter(move |field| {
             let overlaps = |&(first, last): &(u32, u32)| field.first <= last && first < field.end();
@@ -314,11 +323,11 @@ impl Printer<'_> {
     }
 
     /// Index registers that an index leads to by their numbers among the special registers.
-    fn aliases(&self, class: DeviceClass, kind: Option<Kind>) -> Vec<(u32, Device)> {
-        if class != DeviceClass::D || kind.is_some_and(|kind| kind != Kind::Word) {
+    fn aliases(&self, class: DeviceClass) -> Vec<(u32, Device)> {
+        if class != DeviceClass::D {
             return Vec::new();
         }
-        let runs = reach::by_index(self.module, class);
+        let runs = &self.by_index[class as usize];
         let aliases = self.module.model.index_aliases.iter();
         aliases
             .filter(|alias| {
@@ -347,7 +356,7 @@ impl Printer<'_> {
         kind: Option<Kind>,
         write: impl Fn(&mut String, &Device),
     ) {
-        let arrays = self.reached(class);
+        let arrays = self.reached(class).filter(|field| !self.is_aside(field));
         let arrays = arrays.filter(|f| kind.is_none_or(|kind| f.kind == kind));
         let line = |out: &mut String, device: Device| {
             let mut text = String::new();
@@ -365,10 +374,7 @@ impl Printer<'_> {
         for field in arrays {
             let mut name = String::from("plc->");
             field.name(&mut name);
-            let condition = match field.first {
-                0 => format!("n < {}", field.end()),
-                first => format!("n >= {first} && n < {}", field.end()),
-            };
+            let condition = format!("n >= {} && n < {}", field.first, field.end());
             let _ = write!(out, "    if ({condition}) {{\n        ");
             field.element(&mut name, "n", "");
             line(
@@ -380,16 +386,6 @@ impl Printer<'_> {
             );
             out.push_str("    }\n");
         }
-        let cases = self.aliases(class, kind);
-        if cases.is_empty() {
-            return;
-        }
-        out.push_str("    switch (n) {\n");
-        for (number, device) in cases {
-            let _ = write!(out, "    case {number}:\n        ");
-            line(out, device);
-        }
-        out.push_str("    default:\n        break;\n    }\n");
     }
 }
 

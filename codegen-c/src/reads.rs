@@ -79,7 +79,8 @@ impl Writer<'_, '_> {
     }
 
     fn pair(&mut self, out: &mut Code, place: &Place) {
-        if place.index.is_some() && place.class == DeviceClass::C {
+        let of_iteration = self.access_iteration(&mut String::new(), place);
+        if place.index.is_some() && !of_iteration {
             return self.indexed_call(out, "long", place);
         }
         if is_counter32(place.class, place.number) {

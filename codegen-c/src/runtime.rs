@@ -159,12 +159,10 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// A device, and in which area the runtime finds it without a search.
+    /// A device, and in which area the runtime finds it without a search: with an index, that of its operand, where most
+    /// indexes lead.
     fn device(&mut self, code: &mut Code, place: &Place) {
-        let area = match place.index {
-            None => areas::named(&self.areas, place.class, place.number),
-            Some(_) => None,
-        };
+        let area = areas::named(&self.areas, place.class, place.number);
         if let Some(area) = area {
             code.open("rungc_in(");
             let _ = write!(code.text(), "{area}");

@@ -217,7 +217,11 @@ impl Generator<'_> {
                 let a = self.expr(a);
                 Code::atom(quote!(i16::from(#a)))
             }
-            Expr::InRange { place, count } => self.in_range(place, count),
+            Expr::InRange {
+                place,
+                count,
+                length,
+            } => self.in_range(place, count, length),
         }
     }
 
@@ -456,15 +460,21 @@ impl Generator<'_> {
         Some((field.name(), quote!(#from..#to)))
     }
 
-    fn in_range(&mut self, place: Place, count: u32) -> Code {
-        if place.index.is_none() {
+    fn in_range(&mut self, place: Place, count: u32, length: Option<ExprId>) -> Code {
+        if place.index.is_none() && length.is_none() {
             let model = self.module.model;
             let holds = model.in_range(place.class, i64::from(place.number), count);
             return Code::atom(quote!(#holds));
         }
         let (class, number) = self.indexed(place);
         let devices = self.devices_const();
-        let count = Literal::u32_unsuffixed(count);
+        let count = match length {
+            None => Literal::u32_unsuffixed(count).into_token_stream(),
+            Some(length) => {
+                let length = self.typed(length).receiver();
+                quote!(#length.unsigned_abs())
+            }
+        };
         Code::atom(quote!(#devices.hold(#class, #number, #count)))
     }
 

@@ -12,6 +12,7 @@
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
+mod blocks;
 mod call;
 mod coils;
 mod defmt;

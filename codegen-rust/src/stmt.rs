@@ -10,7 +10,7 @@ use rungc_emit::comments;
 use rungc_emit::edges::{Asker, user_of_edge};
 use rungc_emit::plan::{Flow, Node, Plan, Stations};
 use rungc_emit::stations;
-use rungc_ir::node::{Action, Block, Edge, Expr, ExprId, LabelId, Place, SetEntry, Stmt};
+use rungc_ir::node::{Action, Edge, Expr, ExprId, LabelId, SetEntry, Stmt};
 use rungc_rt::EdgeKind;
 use rungc_syntax::text::one_line;
 use std::rc::Rc;
@@ -173,41 +173,6 @@ impl Generator<'_> {
         let root = self.plan.functions[self.function].root;
         let state = self.plan.state(root, label)?;
         Some(self.state_name(root, state))
-    }
-
-    /// A run of devices is copied or filled; nothing is written of one that is not stored.
-    fn block(&mut self, block: &Block) -> TokenStream {
-        let (to, count) = block.written();
-        let Some((field, range)) = self.run(to, count) else {
-            return TokenStream::new();
-        };
-        match *block {
-            Block::Copy { from, .. } => match self.run(from, count) {
-                Some((source, from)) if source == field => {
-                    let first = Literal::u32_unsuffixed(to.number - self.first_of(to));
-                    quote!(plc.#field.copy_within(#from, #first);)
-                }
-                Some((source, from)) => {
-                    quote!(plc.#field[#range].copy_from_slice(&plc.#source[#from]);)
-                }
-                None => TokenStream::new(),
-            },
-            Block::Fill { value, .. } => {
-                let reads = !matches!(self.module.expr(value), Expr::Bit(_) | Expr::I16(_));
-                let value = self.typed(value);
-                match reads {
-                    // It is read before the field is borrowed.
-                    true => quote!({ let value = #value; plc.#field[#range].fill(value); }),
-                    false => quote!(plc.#field[#range].fill(#value);),
-                }
-            }
-        }
-    }
-
-    /// The number at which the field of a device begins.
-    fn first_of(&self, place: Place) -> u32 {
-        let field = self.storage.find(place.class, place.number);
-        field.map_or(place.number, |field| field.first)
     }
 
     /// `plc.edges[0].rising(plc.x2)`.

@@ -26,6 +26,12 @@ const CALLS: Shape<'static> = (
     "runtime_calls",
     "LD X0\nMOV D30 Z1\nBMOV D0 D10 K10\nDECO M0 D1 K3\nDMEAN D2 D4 K2\nDSIN E1.5 D20\nDEADD D20 E1.5 D22\nFMOV K0 D100Z1 K4\nEND\n",
 );
+const BLOCKS: Shape<'static> = (
+    "indexed_blocks",
+    "LD X0\nWAND D10 H0F Z0\nMOV D13 Z1\nBMOV D100Z0 D300 K20\nBMOV D300 D100Z0 D11\nFMOV D12 D100Z0 K20\nDFMOV K5 D100Z0 K4\n\
+     ZRST M100Z0 M131Z0\nSFTL X0 M100Z0 K32 K4\nWSFL R0 D100Z0 K16 K2\nSFWR D12 D100Z0 K10\nSFRD D100Z0 D12 K10\n\
+     BMOV R0Z1 R100 K20\nFMOV K0 R0Z1 D11\nEND\n",
+);
 const FLOW: Shape<'static> = (
     "flow",
     "LD X0\nCALL P1\nFOR K3\nLD X1\nINC D0\nNEXT\nLD X2\nMC N0 M100\nLD X3\nOUT Y0\nMCR N0\nFEND\nP1\nLD X4\nOUT Y1\nSRET\nEND\n",
@@ -39,7 +45,7 @@ const STEPS: Shape<'static> = (
     "LD M8002\nSET S0\nSTL S0\nLD X0\nSET S20\nSTL S20\nOUT Y0\nLD X1\nOUT S0\nRET\nEND\n",
 );
 
-const SHAPES: [Shape<'static>; 7] = [LADDER, COILS, WORDS, CALLS, FLOW, JUMPS, STEPS];
+const SHAPES: [Shape<'static>; 8] = [LADDER, COILS, WORDS, CALLS, BLOCKS, FLOW, JUMPS, STEPS];
 
 fn module((name, text): Shape) -> Module {
     common::compiled(name, text)
@@ -85,6 +91,11 @@ fn words() {
 #[test]
 fn runtime_calls() {
     insta::assert_snapshot!(program(CALLS));
+}
+
+#[test]
+fn indexed_blocks() {
+    insta::assert_snapshot!(program(BLOCKS));
 }
 
 #[test]

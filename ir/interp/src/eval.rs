@@ -129,7 +129,13 @@ impl<'m> Machine<'m> {
             Expr::Narrow(a) => Value::I16(int(self.eval(a)) as i16),
             Expr::HighWord(a) => Value::I16((int(self.eval(a)) >> 16) as i16),
             Expr::BitToInt(a) => Value::I16(self.on(a).into()),
-            Expr::InRange { place, count } => Value::Bit(self.in_range(place, count)),
+            Expr::InRange {
+                place,
+                count,
+                length,
+            } => Value::Bit(
+                self.in_range(place, length.map_or(count, |id| int(self.eval(id)) as u32)),
+            ),
         }
     }
 

@@ -166,8 +166,19 @@ impl<'m> Machine<'m> {
     /// Copies or fills a run of devices.
     fn block(&mut self, block: &Block) {
         let (to, count) = block.written();
+        let count = match block.length() {
+            Some(length) => int(self.eval(length)).clamp(0, count as i32) as u32,
+            None => count,
+        };
+        let Some(to) = self.settled(to) else {
+            return;
+        };
         let values: Vec<Value> = match *block {
-            Block::Copy { from, .. } => places(from, count).map(|p| self.device_value(p)).collect(),
+            Block::Copy { from, .. } => {
+                let from = self.settled(from);
+                let read = from.map(|from| places(from, count).map(|p| self.device_value(p)));
+                read.into_iter().flatten().collect()
+            }
             Block::Fill { value, .. } => vec![self.eval(value); count as usize],
         };
         for (to, value) in places(to, count).zip(values) {
@@ -177,6 +188,12 @@ impl<'m> Machine<'m> {
                 self.write_word(to, int(value) as i16);
             }
         }
+    }
+
+    /// A place without an index, which is added; `None` if that makes its number negative.
+    fn settled(&self, place: Place) -> Option<Place> {
+        let number = self.device(place)?.1;
+        Some(Place::fixed(place.class, number))
     }
 
     /// The state of a bit device, or the value of a word device.

@@ -280,17 +280,15 @@ impl Out<'_> {
     }
 
     fn run(&self, block: &Block) -> String {
+        let (to, count) = block.written();
+        let count = match block.length() {
+            Some(length) => self.expr(length),
+            None => count.to_string(),
+        };
+        let to = self.place(&to);
         match block {
-            Block::Copy { from, to, count } => {
-                format!(
-                    "{}[{count}] := {}[{count}]",
-                    self.place(to),
-                    self.place(from)
-                )
-            }
-            Block::Fill { to, count, value } => {
-                format!("{}[{count}] := each {}", self.place(to), self.expr(*value))
-            }
+            Block::Copy { from, .. } => format!("{to}[{count}] := {}[{count}]", self.place(from)),
+            Block::Fill { value, .. } => format!("{to}[{count}] := each {}", self.expr(*value)),
         }
     }
 
@@ -443,7 +441,17 @@ impl Out<'_> {
             Expr::Within { value, low, high } => {
                 format!("{} in {low}..={high}", self.expr(*value))
             }
-            Expr::InRange { place, count } => format!("in_range({}, {count})", self.place(place)),
+            Expr::InRange {
+                place,
+                count,
+                length,
+            } => {
+                let count = match length {
+                    Some(length) => self.expr(*length),
+                    None => count.to_string(),
+                };
+                format!("in_range({}, {count})", self.place(place))
+            }
         }
     }
 }

@@ -81,7 +81,11 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
         Expr::Widen(a) => ty(a) == Ty::I16,
         Expr::Narrow(a) | Expr::HighWord(a) => ty(a) == Ty::I32,
         Expr::Read(access) => access.is_well_formed() && indexed(access.place),
-        Expr::InRange { place, count } => count > 0 && indexed(place),
+        Expr::InRange {
+            place,
+            count,
+            length,
+        } => count > 0 && indexed(place) && length.is_none_or(|length| ty(length) == Ty::I32),
         Expr::Cell(cell) => module.cells.get(cell).is_some(),
         Expr::Within { value, low, high } => ty(value) == Ty::I32 && low <= high,
         Expr::Stride(iteration, by) => by > 0 && module.temps.get(iteration) == Some(&Ty::I32),
@@ -453,7 +457,8 @@ impl Checker<'_> {
         coil.place.index.is_some() && is(coil.drive, Ty::Bit) && is(coil.preset, Ty::I16)
     }
 
-    /// Returns true if the runs of a block are ordinary devices of one kind, which all exist.
+    /// Returns true if the runs of a block are devices of one kind, ordinary ones that all exist where no index leads to
+    /// them.
     fn block(&self, block: &Block) -> bool {
         use DeviceClass::{D, M, R, S, X, Y};
         let model = self.module.model;
@@ -464,18 +469,25 @@ impl Checker<'_> {
                 true => matches!(place.class, X | Y | M | S),
                 false => matches!(place.class, D | R),
             };
-            alike
-                && place.index.is_none()
-                && !is_special(place.class, place.number)
-                && model.in_range(place.class, place.number.into(), count)
+            let exists = match place.index {
+                Some(index) => self.module.ty(index) == Ty::I32,
+                None => {
+                    !is_special(place.class, place.number)
+                        && model.in_range(place.class, place.number.into(), count)
+                }
+            };
+            alike && exists
         };
+        let length = block
+            .length()
+            .is_none_or(|length| self.module.ty(length) == Ty::I32);
         let value = match *block {
             Block::Fill { value, .. } => {
                 self.module.ty(value) == if bits { Ty::Bit } else { Ty::I16 }
             }
             Block::Copy { .. } => true,
         };
-        count > 0 && value && well(to) && block.source().is_none_or(well)
+        count > 0 && length && value && well(to) && block.source().is_none_or(well)
     }
 
     fn arg(&self, arg: &Arg) -> bool {

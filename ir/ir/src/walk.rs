@@ -36,7 +36,8 @@ macro_rules! operand_slots {
         Expr::And(a, b) | Expr::Or(a, b) | Expr::Cmp(_, a, b)
         | Expr::Bin(_, a, b)
         | Expr::Float(_, a, b) => [Some(a), Some(b)],
-        Expr::Read(Access { place, .. }) | Expr::InRange { place, .. } => [place.index.$index(), None],
+        Expr::Read(Access { place, .. }) => [place.index.$index(), None],
+        Expr::InRange { place, length, .. } => [place.index.$index(), length.$index()],
         Expr::Bit(_)
         | Expr::I16(_)
         | Expr::I32(_)
@@ -111,12 +112,14 @@ macro_rules! action_parts {
                     f(Place(&$($mutable)? access.place));
                     f(Value(value));
                 }
-                Action::Block(Block::Copy { from, to, .. }) => {
+                Action::Block(Block::Copy { from, to, length, .. }) => {
                     f(Place(from));
                     f(Place(to));
+                    length.$iter().for_each(|length| f(Value(length)));
                 }
-                Action::Block(Block::Fill { to, value, .. }) => {
+                Action::Block(Block::Fill { to, length, value, .. }) => {
                     f(Place(to));
+                    length.$iter().for_each(|length| f(Value(length)));
                     f(Value(value));
                 }
                 Action::Timer(TimerCoil { drive, preset, .. })

@@ -1,10 +1,11 @@
 //! Instructions on consecutive devices, which are inline code: of a few, each device by name; longer runs are copied or
-//! filled as a whole. The runtime is called for those that an index leads to.
+//! filled as a whole. Those that an index leads to are in `indexed_blocks`.
 
 use super::Lowerer;
+use super::indexed_blocks;
 use super::operand::{Guards, fixed};
 use super::words::constant;
-use rungc_ir::node::{Access, Action, BinOp, Block, Expr, ExprId, Place, Stmt};
+use rungc_ir::node::{Access, Action, BinOp, Expr, ExprId, Place, Stmt};
 use rungc_models::runs::is_special;
 use rungc_rt::RtFn;
 use rungc_rt::special::{M_BMOV_REVERSE, M_MEAN_SUM};
@@ -17,20 +18,25 @@ const BITS: u32 = 16;
 /// Timers or counters that are reset one by one at most.
 const RESETS: u32 = 64;
 /// The most that BMOV and FMOV move.
-const MOVED: u32 = 512;
+pub(super) const MOVED: u32 = 512;
 /// The most bits and the most words that are shifted.
-const SHIFTED_BITS: u32 = 1024;
-const SHIFTED_WORDS: u32 = 2048;
+pub(super) const SHIFTED_BITS: u32 = 1024;
+pub(super) const SHIFTED_WORDS: u32 = 2048;
 /// Of how many bits DECO takes a number.
 const DECODED: u32 = 8;
 
 /// Returns true if an instruction on a block that a runtime function implements is inline code, judging by its
 /// operands.
+pub(super) fn is_inline(function: RtFn, instr: &Instr, wide: bool) -> bool {
+    is_plain(function, instr) || indexed_blocks::is_inline(function, instr, wide)
+}
+
+/// Returns true if the devices of such an instruction have no index, and the program states their number.
 #[expect(
     clippy::wildcard_enum_match_arm,
     reason = "the other functions of the runtime are called"
 )]
-pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
+fn is_plain(function: RtFn, instr: &Instr) -> bool {
     let kind = |i: usize| instr.operands.get(i).map(|operand| &operand.kind);
     let count = |i, most| {
         kind(i)
@@ -113,14 +119,14 @@ impl Lowerer<'_> {
         reason = "the other functions of the runtime are called"
     )]
     pub(super) fn inline_block(&mut self, function: RtFn) -> bool {
-        if !is_inline(function, self.instr()) {
-            return false;
+        if !is_plain(function, self.instr()) {
+            return self.inline_indexed_block(function);
         }
         let looked_at = |flag| self.specials.has(flag);
         let expand: fn(&mut Self) = match function {
-            RtFn::Bmov if looked_at(M_BMOV_REVERSE) => return false,
             RtFn::MeanSum if looked_at(M_MEAN_SUM) => return false,
             RtFn::Mean | RtFn::MeanSum if self.wide() => return false,
+            RtFn::Bmov if looked_at(M_BMOV_REVERSE) => return self.inline_indexed_block(function),
             _ if self.is_odd(function) => return false,
             RtFn::Bmov | RtFn::BmovForward => Self::move_block,
             RtFn::Fmov => Self::fill_block,
@@ -135,6 +141,15 @@ impl Lowerer<'_> {
         };
         self.driven(expand);
         true
+    }
+
+    /// Emits an instruction on blocks of which one has an index or a length in a register, if that is inline code.
+    fn inline_indexed_block(&mut self, function: RtFn) -> bool {
+        let inline = indexed_blocks::is_inline(function, self.instr(), self.wide());
+        if inline {
+            self.indexed_block(function);
+        }
+        inline
     }
 
     /// Operand `i` as a count that the program states.
@@ -203,12 +218,12 @@ impl Lowerer<'_> {
 
     fn copy_run(&mut self, from: Device, to: Device, count: u32) {
         let [from, to] = [from, to].map(|first| fixed(first.class, first.number));
-        self.emit(Action::Block(Block::Copy { from, to, count }));
+        self.copy_block(from, to, count, None);
     }
 
     fn fill_run(&mut self, to: Device, count: u32, value: ExprId) {
         let to = fixed(to.class, to.number);
-        self.emit(Action::Block(Block::Fill { to, count, value }));
+        self.fill_block_with(to, count, None, value);
     }
 
     /// Word number `k` from a register on.
@@ -232,7 +247,7 @@ impl Lowerer<'_> {
             if n > WORDS {
                 match wide {
                     _ if !exists => {}
-                    true => this.fill_pairs(to, n, value),
+                    true => this.fill_pairs_from(fixed(to.class, to.number), n, value),
                     false => this.fill_run(to, n, value),
                 }
                 return;
@@ -244,22 +259,6 @@ impl Lowerer<'_> {
                 this.store(target, value);
             }
         });
-    }
-
-    /// Writes a pair and copies what is there until there are `count`.
-    fn fill_pairs(&mut self, to: Device, count: u32, value: ExprId) {
-        let place = fixed(to.class, to.number);
-        self.emit(Action::Write(Access::pair(place), value));
-        let mut there = 1;
-        while there < count {
-            let more = there.min(count - there);
-            let next = Device {
-                number: to.number + 2 * there,
-                ..to
-            };
-            self.copy_run(to, next, 2 * more);
-            there += more;
-        }
     }
 
     /// MEAN of words: its fraction is dropped.

@@ -47,7 +47,11 @@ impl Lowerer<'_> {
                 number: 0,
                 index: Some(index),
             };
-            let exists = this.add(Expr::InRange { place, count: 2 });
+            let exists = this.add(Expr::InRange {
+                place,
+                count: 2,
+                length: None,
+            });
             let rows = this.register(table.rows);
             let left = this.add(Expr::Cmp(CmpOp::Lt, waits, rows));
             let looks = this.and(left, exists);

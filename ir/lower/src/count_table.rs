@@ -157,7 +157,11 @@ impl Lowerer<'_> {
             index: Some(last),
             ..first
         };
-        let exists = self.add(Expr::InRange { place, count: 1 });
+        let exists = self.add(Expr::InRange {
+            place,
+            count: 1,
+            length: None,
+        });
         guards.demand(exists);
         rows
     }
@@ -413,7 +417,11 @@ impl Lowerer<'_> {
             number: 0,
             index: Some(number),
         };
-        let exists = self.add(Expr::InRange { place, count: 1 });
+        let exists = self.add(Expr::InRange {
+            place,
+            count: 1,
+            length: None,
+        });
         self.when(exists, |this| {
             let state = this.add(Expr::HighWord(word));
             let zero = this.int(0, false);

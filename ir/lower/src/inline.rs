@@ -6,11 +6,11 @@ use rungc_syntax::Instr;
 
 /// Returns true if an instruction is inline code, judging by its operands. It may still be a call where flags ask for
 /// more than the code here does.
-pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
+pub(super) fn is_inline(function: RtFn, instr: &Instr, wide: bool) -> bool {
     words::is_inline(function, instr)
         || digits::is_inline(function, instr)
         || times::is_inline(function, instr)
-        || blocks::is_inline(function, instr)
+        || blocks::is_inline(function, instr, wide)
         || queues::is_inline(function, instr)
         || drums::is_inline(function, instr)
         || annunciators::is_inline(function, instr)
@@ -18,8 +18,8 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
 
 /// Returns true if the flags of an instruction's row are to be stored: by those that the runtime executes, and by those
 /// that read them.
-pub(super) fn has_flags(function: RtFn, instr: &Instr) -> bool {
-    !is_inline(function, instr) || digits::reads_flag(function)
+pub(super) fn has_flags(function: RtFn, instr: &Instr, wide: bool) -> bool {
+    !is_inline(function, instr, wide) || digits::reads_flag(function)
 }
 
 impl Lowerer<'_> {

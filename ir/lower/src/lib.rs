@@ -33,6 +33,7 @@ mod errors;
 mod extension;
 mod flow;
 mod high_speed;
+mod indexed_blocks;
 mod inline;
 mod input_axes;
 mod interrupt;

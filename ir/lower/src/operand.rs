@@ -150,7 +150,7 @@ impl Lowerer<'_> {
     }
 
     /// The condition that an index leads to `count` devices, within its bound if it has one.
-    fn demand_device(
+    pub(super) fn demand_device(
         &mut self,
         place: Place,
         index: ExprId,
@@ -161,7 +161,11 @@ impl Lowerer<'_> {
         let Some((low, high)) = bound else {
             let index = Some(self.within(index, None));
             let place = Place { index, ..place };
-            return guards.demand(self.add(Expr::InRange { place, count }));
+            return guards.demand(self.add(Expr::InRange {
+                place,
+                count,
+                length: None,
+            }));
         };
         for (op, end) in [(CmpOp::Ge, low), (CmpOp::Le, high)] {
             let end = self.add(Expr::I32(end));

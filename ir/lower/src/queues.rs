@@ -2,8 +2,8 @@
 //! SFRD.
 
 use super::Lowerer;
-use super::blocks::register;
-use super::operand::{Guards, fixed};
+use super::indexed_blocks::{after, words};
+use super::operand::Guards;
 use super::words::constant;
 use rungc_ir::node::{Access, Action, BinOp, Expr, ExprId, Place};
 use rungc_models::runs::is_special;
@@ -25,13 +25,12 @@ fn queue_of(function: RtFn) -> Option<usize> {
 /// Returns true if such an instruction is inline code, judging by its operands.
 pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     let kind = |i: usize| instr.operands.get(i).map(|operand| &operand.kind);
-    let queue = queue_of(function).and_then(kind).and_then(register);
+    let queue = queue_of(function).and_then(kind).and_then(words);
     let length = kind(2).and_then(constant);
-    let (Some(queue), Some(length @ 2..=LONGEST)) = (queue, length) else {
+    let (Some((queue, index)), Some(length @ 2..=LONGEST)) = (queue, length) else {
         return false;
     };
-    !is_special(queue.class, queue.number)
-        && !is_special(queue.class, queue.number + length as u32 - 1)
+    index.is_some() || !is_special(queue.class, queue.number + length as u32 - 1)
 }
 
 impl Lowerer<'_> {
@@ -47,45 +46,57 @@ impl Lowerer<'_> {
         true
     }
 
-    /// Gives `make` the number of entries of the queue at operand `i`, which faults if it is below 0.
+    /// Gives `make` the queue at operand `i` and the number of its entries, which faults if it is below 0.
     fn with_entries(
         &mut self,
-        queue: Device,
+        i: usize,
         mut guards: Guards,
-        make: impl FnOnce(&mut Self, ExprId),
+        make: impl FnOnce(&mut Self, Place, ExprId),
     ) {
-        let length = self.stated(2);
-        self.demand_block(queue, length, &mut guards);
-        let exists = self.exists(queue.class, queue.number, length);
+        let queue = self.block_at(i, self.stated(2), &mut guards);
         self.guarded(guards, |this| {
-            if !exists {
+            let Some(queue) = queue else {
                 return;
-            }
-            let held = this.word_at(queue, 0);
+            };
+            let queue = this.settled_place(queue);
+            let held = this.add(Expr::Read(Access::word(queue)));
             let held = this.settled(held);
             let none = this.int(0, false);
             let fits = this.add(Expr::Cmp(CmpOp::Ge, held, none));
-            this.checked(fits, this.model.value_error, |this| make(this, held));
+            this.checked(fits, this.model.value_error, |this| make(this, queue, held));
         });
     }
 
     /// The number of entries changes by one.
-    fn count_entries(&mut self, queue: Device, held: ExprId, op: BinOp) {
+    fn count_entries(&mut self, queue: Place, held: ExprId, op: BinOp) {
         let one = self.int(1, false);
         let held = self.add(Expr::Bin(op, held, one));
-        let place = fixed(queue.class, queue.number);
-        self.emit(Action::Write(Access::word(place), held));
+        self.emit(Action::Write(Access::word(queue), held));
+    }
+
+    /// The place of the next entry, of `places`, in a queue that holds this many.
+    fn next_entry(&mut self, queue: Place, held: ExprId, places: i32) -> Place {
+        let held = self.add(Expr::Widen(held));
+        let held = self.within(held, Some((0, places - 1)));
+        let index = match queue.index {
+            None => held,
+            Some(index) => {
+                let index = self.add(Expr::Bin(BinOp::Add, index, held));
+                self.within(index, None)
+            }
+        };
+        Place {
+            index: Some(index),
+            ..after(queue, 1)
+        }
     }
 
     /// SFWR: a full queue stays as it is.
     fn append(&mut self) {
-        let Some(queue) = self.device_of(1) else {
-            return;
-        };
         let places = self.stated(2) as i32 - 1;
         let mut guards = Guards::default();
         let value = self.source(0, &mut guards);
-        self.with_entries(queue, guards, |this, held| {
+        self.with_entries(1, guards, |this, queue, held| {
             let value = this.settled(value);
             let all = this.int(places, false);
             let full = this.add(Expr::Cmp(CmpOp::Ge, held, all));
@@ -94,12 +105,7 @@ impl Lowerer<'_> {
             let room = this.not(full);
             this.when(room, |this| {
                 this.count_entries(queue, held, BinOp::Add);
-                let index = this.add(Expr::Widen(held));
-                let index = this.within(index, Some((0, places - 1)));
-                let place = Place {
-                    index: Some(index),
-                    ..fixed(queue.class, queue.number + 1)
-                };
+                let place = this.next_entry(queue, held, places);
                 this.emit(Action::Write(Access::word(place), value));
             });
         });
@@ -107,28 +113,35 @@ impl Lowerer<'_> {
 
     /// SFRD: the entries after the oldest move down, the last word stays.
     fn take_oldest(&mut self) {
-        let Some(queue) = self.device_of(0) else {
-            return;
-        };
         let length = self.stated(2);
         let mut guards = Guards::default();
         let target = self.result(1, &mut guards);
-        let at = |places: u32| Device {
-            number: queue.number + places,
-            ..queue
-        };
-        self.with_entries(queue, guards, |this, held| {
+        self.with_entries(0, guards, |this, queue, held| {
             let empty = this.is_int(held, 0, false);
             let empty = this.settled(empty);
             this.set_flag(M_ZERO, empty);
             let some = this.not(empty);
             this.when(some, |this| {
-                let oldest = this.word_at(queue, 1);
+                let oldest = this.add(Expr::Read(Access::word(after(queue, 1))));
                 let oldest = this.settled(oldest);
-                this.copy_words(at(2), at(1), length - 2, false);
+                this.copy_entries(queue, length - 2);
                 this.count_entries(queue, held, BinOp::Sub);
                 this.store(target, oldest);
             });
         });
+    }
+
+    /// Moves the entries after the oldest down by one.
+    fn copy_entries(&mut self, queue: Place, count: u32) {
+        match (queue.index, [2, 1].map(|k| after(queue, k))) {
+            (Some(_), [from, to]) => self.copy_block(from, to, count, None),
+            (None, places) => {
+                let [from, to] = places.map(|place| Device {
+                    class: place.class,
+                    number: place.number,
+                });
+                self.copy_words(from, to, count, false);
+            }
+        }
     }
 }

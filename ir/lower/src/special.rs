@@ -91,7 +91,8 @@ impl Specials {
         let (Some(inst), Some(lower)) = (resolution.inst, resolution.lower) else {
             return;
         };
-        if matches!(lower, Lower::Call(function) if inline::has_flags(function, instr)) {
+        if matches!(lower, Lower::Call(function) if inline::has_flags(function, instr, resolution.form.wide))
+        {
             for (class, number) in flags_of(inst.flags) {
                 self.mark(class, number, Some(1));
                 if !self.flags.contains(&(class, number)) {

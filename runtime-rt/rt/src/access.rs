@@ -8,6 +8,15 @@ fn is_counter32(class: Class, number: i32) -> bool {
     class == Class::C && number >= FIRST_COUNTER32 as i32
 }
 
+/// Copies devices number 0 to `count` of a block, from the last on if the others lie behind those that are read.
+fn in_order(from: (Class, i32), to: (Class, i32), count: i32, mut copy: impl FnMut(i32)) {
+    if from.0 == to.0 && to.1 > from.1 {
+        (0..count).rev().for_each(copy);
+    } else {
+        (0..count).for_each(&mut copy);
+    }
+}
+
 /// Access to indexed devices in emitted Rust. It asks whether they exist before; where one does not, a read gives 0 and
 /// a write is lost.
 pub trait Access: Plc {
@@ -36,6 +45,33 @@ pub trait Access: Plc {
             return;
         }
         let _ = self.set_word(class, number as u32, value);
+    }
+
+    /// Copies `count` words to others, as if all were read before one is written; each is named by its class and its
+    /// number.
+    fn copy_words_at(&mut self, from: (Class, i32), to: (Class, i32), count: i32) {
+        in_order(from, to, count, |k| {
+            let value = self.word_at(from.0, from.1.wrapping_add(k));
+            self.set_word_at(to.0, to.1.wrapping_add(k), value);
+        });
+    }
+
+    /// Copies bits likewise.
+    fn copy_bits_at(&mut self, from: (Class, i32), to: (Class, i32), count: i32) {
+        in_order(from, to, count, |k| {
+            let value = self.bit_at(from.0, from.1.wrapping_add(k));
+            self.set_bit_at(to.0, to.1.wrapping_add(k), value);
+        });
+    }
+
+    /// Sets `count` words.
+    fn fill_words_at(&mut self, class: Class, number: i32, count: i32, value: i16) {
+        (0..count).for_each(|k| self.set_word_at(class, number.wrapping_add(k), value));
+    }
+
+    /// Sets `count` bits.
+    fn fill_bits_at(&mut self, class: Class, number: i32, count: i32, value: bool) {
+        (0..count).for_each(|k| self.set_bit_at(class, number.wrapping_add(k), value));
     }
 
     /// Resets a timer or counter.

@@ -16,6 +16,7 @@ extern crate std;
 mod access;
 mod axis;
 pub mod axis_place;
+pub mod blocks;
 pub mod board;
 #[cfg(feature = "capi")]
 #[allow(unsafe_code, reason = "C hands over pointers")]

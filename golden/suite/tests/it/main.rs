@@ -14,6 +14,7 @@ mod empty_tables;
 mod explore_faults;
 mod failing_constants;
 mod faults;
+mod indexed_blocks;
 mod inlined;
 mod lanes;
 mod licences;

@@ -103,8 +103,10 @@ pub enum Expr {
     InRange {
         /// First device.
         place: Place,
-        /// Number of devices.
+        /// Number of devices; the least that there are, if there is a `length`.
         count: u32,
+        /// Number of devices (`I32`), at least `count`, if only known at run time.
+        length: Option<ExprId>,
     },
 }
 

@@ -196,8 +196,9 @@ pub struct Send {
     pub step: u32,
 }
 
-/// A copy or a fill of a run of devices: bits X, Y, M and S, or words D and R. None is special, none of the places has
-/// an index, and all devices of a run exist, in one run of the model.
+/// A copy or a fill of a run of devices: bits X, Y, M and S, or words D and R. All devices of a run exist, in one run of
+/// the model ([`Expr::InRange`](super::Expr::InRange)). Those of a place without an index are not special. Indexes, the
+/// length and the value are evaluated before anything is written.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Block {
     /// Copies devices to others of the same kind, as if all were read before one is written.
@@ -206,25 +207,35 @@ pub enum Block {
         from: Place,
         /// First of those that are written.
         to: Place,
-        /// Number of devices, at least 1.
+        /// Number of devices, at least 1; the most that there are, if there is a `length`.
         count: u32,
+        /// Number of devices (`I32`), from 1 to `count`, if only known at run time.
+        length: Option<ExprId>,
     },
     /// Writes one value to all.
     Fill {
         /// First of them.
         to: Place,
-        /// Number of devices, at least 1.
+        /// As for a copy.
         count: u32,
+        /// As for a copy.
+        length: Option<ExprId>,
         /// `Bit` or `I16`.
         value: ExprId,
     },
 }
 
 impl Block {
-    /// The first device that is written, and how many are.
+    /// The first device that is written, and how many are at most.
     pub fn written(&self) -> (Place, u32) {
         let (Block::Copy { to, count, .. } | Block::Fill { to, count, .. }) = *self;
         (to, count)
+    }
+
+    /// The number of devices, if only known at run time.
+    pub fn length(&self) -> Option<ExprId> {
+        let (Block::Copy { length, .. } | Block::Fill { length, .. }) = *self;
+        length
     }
 
     /// The first device that is read, if devices are copied.

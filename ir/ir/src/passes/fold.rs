@@ -1,8 +1,9 @@
 //! Makes expressions in their simplest form.
 
-use crate::node::{BinOp, Expr, ExprId, Place, TempId, Ty};
+use crate::node::{Access, AccessKind, BinOp, Expr, ExprId, Place, TempId, Ty};
 use crate::walk::operands;
 use rungc_models::Model;
+use rungc_models::runs::is_counter32;
 use rungc_rt::CmpOp;
 use typed_index_collections::{TiSlice, TiVec};
 
@@ -84,11 +85,15 @@ impl<'m> Arena<'m> {
             },
             Expr::Complement(a) => self.complement(a),
             Expr::Neg(a) => self.neg(a),
-            Expr::Within { value, .. } => match self.get(value).as_int() {
-                Some(_) => value,
-                None => self.push(expr),
-            },
-            Expr::InRange { place, count } => self.in_range(place, count),
+            Expr::Within { value, low, high } => self.within(value, low, high),
+            Expr::InRange {
+                place,
+                count,
+                length: None,
+            } => self.in_range(place, count),
+            Expr::InRange {
+                length: Some(_), ..
+            } => self.push(expr),
             Expr::Bit(_)
             | Expr::I16(_)
             | Expr::I32(_)
@@ -158,8 +163,36 @@ impl<'m> Arena<'m> {
         }
     }
 
+    /// A value in bounds. One that fits into a word needs no other than the low word of its pair.
+    fn within(&mut self, value: ExprId, low: i32, high: i32) -> ExprId {
+        let is_word = i16::try_from(low).is_ok() && i16::try_from(high).is_ok();
+        let expr = self.get(value);
+        if expr.as_int().is_some() {
+            return value;
+        }
+        let word = if let Expr::Read(Access { place, kind }) = expr
+            && is_word
+            && kind == AccessKind::Pair
+            && !is_counter32(place.class, place.number)
+        {
+            let word = self.push(Expr::Read(Access::word(place)));
+            self.push(Expr::Widen(word))
+        } else {
+            value
+        };
+        self.push(Expr::Within {
+            value: word,
+            low,
+            high,
+        })
+    }
+
     fn in_range(&mut self, place: Place, count: u32) -> ExprId {
-        let expr = Expr::InRange { place, count };
+        let expr = Expr::InRange {
+            place,
+            count,
+            length: None,
+        };
         let (low, high) = match place.index.map(|index| self.get(index)) {
             None => (0, 0),
             Some(Expr::I32(index)) => (index, index),

@@ -146,7 +146,7 @@ impl Eval<'_> {
                 Some(Known::Condition(cond, ..)) => self.when(state, cond, on),
                 _ => Some(state),
             },
-            Expr::InRange { place, count } if on => {
+            Expr::InRange { place, count, .. } if on => {
                 if let Some(index) = place.index {
                     let limit = self.leads_to_devices(place, count)?;
                     let limit = self.value(&state, index).meet(limit)?;

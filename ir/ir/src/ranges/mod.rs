@@ -14,7 +14,7 @@ mod state;
 mod walk;
 
 use crate::layout::Wanted;
-use crate::node::{Access, Body, Expr, ExprId, Module, Place};
+use crate::node::{Access, Action, Body, Expr, ExprId, Module, Place, Stmt};
 use crate::reach::{Footprint, of_expr, of_stmt};
 use crate::walk::{bodies_mut, places_mut, statements};
 use eval::Eval;
@@ -59,14 +59,23 @@ impl Reached {
         before != (self.special.len(), self.writes_run_flags)
     }
 
-    fn add_footprint(&mut self, module: &Module, used: Footprint) {
-        let Place { class, number, .. } = used.place;
-        if used.place.index.is_none() || !matches!(class, M | D) {
+    fn add_footprint(&mut self, module: &Module, used: Footprint, stops: &BTreeSet<i32>) {
+        let Place {
+            class,
+            number,
+            index: Some(index),
+        } = used.place
+        else {
+            return;
+        };
+        if !matches!(class, M | D) {
             return;
         }
         let last = module.model.runs(class).last().map_or(0, |run| run.1);
+        let stopped =
+            matches!(module.expr(index), Expr::Within { high, .. } if stops.contains(high));
         for (first, end) in used.reach(module.model, &module.exprs) {
-            let aims = is_special(class, number) || end < last;
+            let aims = is_special(class, number) || end < last && !stopped;
             if first >= FIRST_SPECIAL && aims {
                 self.special
                     .extend((first..=end).map(|number| (class, number)));
@@ -101,7 +110,8 @@ pub fn find(module: &mut Module, wanted: &Wanted) -> Reached {
         }
     }
     let mut reached = Reached::default();
-    let mut note = |used| reached.add_footprint(module, used);
+    let stops = stops(module);
+    let mut note = |used| reached.add_footprint(module, used, &stops);
     for expr in &module.exprs {
         of_expr(module.model, expr, &mut note);
     }
@@ -114,11 +124,24 @@ pub fn find(module: &mut Module, wanted: &Wanted) -> Reached {
     reached
 }
 
+/// The values at which the end of the devices stops an index, of this operand or of another one of its instruction.
+fn stops(module: &Module) -> BTreeSet<i32> {
+    let stop = |expr: &Expr| {
+        let Expr::InRange { place, count, .. } = *expr else {
+            return None;
+        };
+        let last = module.model.runs(place.class).last()?.1;
+        let index = i64::from(last) + 1 - i64::from(count) - i64::from(place.number);
+        i32::try_from(index).ok()
+    };
+    module.exprs.iter().filter_map(stop).collect()
+}
+
 /// Names devices that an index leads to alone, so that they need no number at run time.
 fn name_known(module: &mut Module) {
     let model = module.model;
     let exprs = module.exprs.clone();
-    let known = |place: &mut Place| {
+    let known = |place: &mut Place, count: u32| {
         let Some(index) = place.index else {
             return;
         };
@@ -128,7 +151,8 @@ fn name_known(module: &mut Module) {
         let number = i64::from(place.number) + i64::from(low);
         if low == high
             && let Ok(number) = u32::try_from(number)
-            && model.has(place.class, number)
+            && model.in_range(place.class, number.into(), count)
+            && (count == 1 || !is_special(place.class, number))
         {
             *place = Place {
                 number,
@@ -142,22 +166,27 @@ fn name_known(module: &mut Module) {
         if let Expr::Read(Access { place, .. }) = expr
             && place.class != C
         {
-            known(place);
+            known(place, 1);
         }
     }
     for function in &mut module.functions {
-        each_place(&mut function.body, &mut |place| {
+        each_place(&mut function.body, &mut |place, count| {
             if !matches!(place.class, T | C) {
-                known(place);
+                known(place, count);
             }
         });
     }
 }
 
-/// Calls `f` with the places that statements themselves name.
-fn each_place(body: &mut Body, f: &mut impl FnMut(&mut Place)) {
+/// Calls `f` with the places that statements themselves name, and how many devices of a block begin there.
+fn each_place(body: &mut Body, f: &mut impl FnMut(&mut Place, u32)) {
     for stmt in body {
-        places_mut(stmt, f);
+        let count = if let Stmt::Do(Action::Block(block)) = stmt {
+            block.written().1
+        } else {
+            1
+        };
+        places_mut(stmt, &mut |place| f(place, count));
         for inner in bodies_mut(stmt) {
             each_place(inner, f);
         }

@@ -91,7 +91,11 @@ impl Encoder<'_> {
             Expr::HighWord(a) => self.eval(a)[16..].to_vec(),
             Expr::BitToInt(a) => unsigned(&[self.on(a)], 16),
             Expr::Within { value, .. } => self.eval(value),
-            Expr::InRange { place, count } => vec![self.in_range(place, count)],
+            Expr::InRange {
+                place,
+                count,
+                length,
+            } => vec![self.in_range(place, count, length)],
         }
     }
 
@@ -287,29 +291,36 @@ impl Encoder<'_> {
     }
 
     /// Bit that is on if `count` devices from a place on exist, in one run.
-    fn in_range(&mut self, place: Place, count: u32) -> Lit {
+    fn in_range(&mut self, place: Place, count: u32, length: Option<ExprId>) -> Lit {
         let number = i64::from(place.number);
-        let Some(index) = place.index else {
-            return self
-                .module
-                .model
-                .in_range(place.class, number, count)
-                .into();
+        let index = match (place.index, length) {
+            (None, None) => {
+                let model = self.module.model;
+                return model.in_range(place.class, number, count).into();
+            }
+            (None, Some(_)) => constant(0, 40),
+            (Some(index), _) => signed(&self.eval(index), 40),
         };
-        let index = signed(&self.eval(index), 40);
+        // The index of the last device, less what is constant.
+        let end = length.map(|length| {
+            let length = signed(&self.eval(length), 40);
+            let more = self.aig.sub(&length, &constant(count.max(1).into(), 40));
+            self.aig.add(&index, &more)
+        });
+        let end = end.unwrap_or_else(|| index.clone());
         let mut found = Lit::FALSE;
         for (first, last) in self.module.model.runs(place.class) {
             let low = i64::from(first) - number;
             let high = i64::from(last) - number - i64::from(count.max(1)) + 1;
             let under = self.aig.less(&index, &constant(low, 40));
-            let over = self.aig.less(&constant(high, 40), &index);
+            let over = self.aig.less(&constant(high, 40), &end);
             let here = self.aig.and(!under, !over);
             found = self.aig.or(found, here);
         }
         found
     }
 
-    fn read(&mut self, Access { place, kind }: Access) -> Bits {
+    pub(super) fn read(&mut self, Access { place, kind }: Access) -> Bits {
         let Some(index) = place.index else {
             return self.read_at(kind, place.class, place.number);
         };

@@ -324,7 +324,7 @@ impl Encoder<'_> {
     }
 
     /// A write that an index may lead to many devices.
-    fn write_anywhere(&mut self, action: &Action, guard: Lit) {
+    pub(super) fn write_anywhere(&mut self, action: &Action, guard: Lit) {
         for key in self.of_operands(action) {
             if let Some(width) = self.state.get(&key).map(Vec::len) {
                 let value = self.fresh_by_index(width);
@@ -333,7 +333,7 @@ impl Encoder<'_> {
         }
     }
 
-    fn write_at(
+    pub(super) fn write_at(
         &mut self,
         kind: AccessKind,
         (class, number): (DeviceClass, u32),
@@ -384,31 +384,6 @@ impl Encoder<'_> {
         if let Some(key) = self.word_key(class, number) {
             let width = if is_counter32(class, number) { 32 } else { 16 };
             self.store(key, &signed(value, width), guard);
-        }
-    }
-
-    fn block(&mut self, block: &Block, guard: Lit) {
-        let (to, count) = block.written();
-        let bits = matches!(
-            to.class,
-            DeviceClass::X | DeviceClass::Y | DeviceClass::M | DeviceClass::S
-        );
-        let kind = if bits {
-            AccessKind::Bit
-        } else {
-            AccessKind::Word
-        };
-        let last = to.number.saturating_add(count.max(1) - 1);
-        let numbers = self.relevant(to.class, (to.number, last), 1);
-        let values: Vec<Bits> = match *block {
-            Block::Copy { from, .. } => numbers
-                .iter()
-                .map(|number| self.read_at(kind, from.class, from.number + (number - to.number)))
-                .collect(),
-            Block::Fill { value, .. } => vec![self.eval(value); numbers.len()],
-        };
-        for (number, value) in numbers.into_iter().zip(&values) {
-            self.write_at(kind, (to.class, number), value, guard);
         }
     }
 

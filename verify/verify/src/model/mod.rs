@@ -5,6 +5,7 @@
 //! not modelled exactly becomes free ([`Encoder::fresh`]), with a note that the verdict quotes. The rules of
 //! [`rungc_ir::node`] hold; `golden` compares each transition with the interpreter's.
 
+mod blocks;
 mod calls;
 mod eval;
 mod exec;
