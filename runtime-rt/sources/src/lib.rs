@@ -119,6 +119,49 @@ mod tests {
     use std::fs;
     use std::process::Command;
 
+    /// The text of a function from its opening brace on.
+    fn body(text: &str) -> &str {
+        let mut depth = 0;
+        let end = text.find(|c| {
+            depth += i32::from(c == '{') - i32::from(c == '}');
+            c == '}' && depth == 0
+        });
+        &text[..end.unwrap_or(text.len())]
+    }
+
+    /// A bound of the stack needs functions that do not call themselves.
+    #[test]
+    fn no_function_calls_itself() {
+        let mut functions = 0;
+        for (path, text) in files(false) {
+            if !path.starts_with("src/") {
+                continue;
+            }
+            for (at, _) in text.match_indices("fn ") {
+                let rest = &text[at + 3..];
+                let name: String = rest
+                    .chars()
+                    .take_while(|c| c.is_alphanumeric() || *c == '_')
+                    .collect();
+                let Some(begin) = rest.find(['{', ';']) else {
+                    continue;
+                };
+                if name.is_empty() || rest[begin..].starts_with(';') {
+                    continue;
+                }
+                functions += 1;
+                let body = body(&rest[begin..]);
+                for call in [format!("self.{name}("), format!("Self::{name}(")] {
+                    let mut calls = body.match_indices(&call);
+                    let by_another = |at: usize| body[..at].ends_with(['.', '_']);
+                    let found = calls.any(|(at, _)| !by_another(at));
+                    assert!(!found, "{path}: {name} calls itself");
+                }
+            }
+        }
+        assert!(functions > 1000, "{functions} functions");
+    }
+
     #[test]
     fn the_crates_are_whole() {
         let files = files(true);

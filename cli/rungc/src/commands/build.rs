@@ -155,6 +155,10 @@ impl Plan {
         let Some(emit) = plan.emit.filter(|_| many) else {
             return Ok(plan);
         };
+        if let (Some(folder), Emit::Rust, None) = (file(&plan.output), emit, &plan.board) {
+            // One firmware cannot have two crates of one name.
+            plan.runtime.get_or_insert(folder.join("rungc-rt").into());
+        }
         let path = match (file(&plan.output), emit) {
             (Some(folder), Emit::Elf | Emit::Uf2) => folder.join(emit.default_output(name)),
             (Some(folder), Emit::Ir) => folder.join(format!("{name}.ir")),

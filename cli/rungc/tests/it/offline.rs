@@ -105,6 +105,30 @@ fn emitted_crates_share_a_runtime() {
 }
 
 #[test]
+fn crates_of_one_firmware_share_a_runtime() {
+    let folder = folder(&[("heating.il", PROGRAM), ("motor.il", MOTOR.as_bytes())]);
+    let path = folder.path();
+    let args = ["build", "heating.il", "motor.il", "--emit", "rust"];
+    let output = rungc(path, &[&args[..], &["-o", "plc"]].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let manifest = "[package]\nname = \"firmware\"\nversion = \"0.1.0\"\nedition = \"2024\"\n[workspace]\n[dependencies]\n\
+                    heating = { path = \"plc/heating\" }\nmotor = { path = \"plc/motor\" }\n\
+                    rungc-rt = { path = \"plc/rungc-rt\" }\n";
+    let main = "fn main() {\n    let _ = (heating::Heating::new(), motor::Motor::new());\n}\n";
+    std::fs::create_dir(path.join("src")).unwrap();
+    std::fs::write(path.join("Cargo.toml"), manifest).unwrap();
+    std::fs::write(path.join("src/main.rs"), main).unwrap();
+    let checked = Command::new(env!("CARGO"))
+        .args(["check", "--offline"])
+        .current_dir(path)
+        .env("CARGO_HOME", path.join("no-registry"))
+        .env("CARGO_TARGET_DIR", path.join("target"))
+        .output()
+        .unwrap();
+    assert!(checked.status.success(), "{}", text(&checked.stderr));
+}
+
+#[test]
 fn a_missing_compiler_is_named() {
     let folder = folder(&[("motor.il", b"LD X000\nOUT Y000\nEND\n")]);
     let output = Command::new(env!("CARGO_BIN_EXE_rungc"))

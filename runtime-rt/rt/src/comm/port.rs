@@ -203,57 +203,63 @@ where
         }
         let at = usize::from(self.status.received);
         let byte = character.byte & self.status.format.mask();
-        let by_silence = self.ends_by_silence();
-        let port = self.plc.port(self.number());
-        // A port of several protocols has room for more.
-        let fits = !by_silence || at < LONGEST_RTU;
-        let place = port.filter(|_| fits);
-        match place.and_then(|port| port.buffer.get_mut(at)) {
-            Some(place) => {
-                *place = byte;
-                self.status.received += 1;
-                true
-            }
-            None if at == 0 => {
-                self.status.spoiled = true;
-                false
-            }
-            // No frame is as long. One that silence ends continues until then; else this character may begin another.
-            None if by_silence => {
-                if !self.status.spoiled {
-                    self.note(LineFault::Overflow);
-                }
-                self.status.spoiled = true;
-                false
-            }
-            None => {
-                self.note(LineFault::Overflow);
-                self.drop_frame();
-                self.store(character)
-            }
+        if self.append(byte) {
+            return true;
         }
+        // No frame is as long. One that silence ends continues until then; else this character may begin another.
+        if at > 0 && !self.ends_by_silence() {
+            self.note(LineFault::Overflow);
+            self.drop_frame();
+            self.status.open = true;
+            self.status.last_us = character.at_us;
+            if self.append(byte) {
+                return true;
+            }
+        } else if at > 0 && !self.status.spoiled {
+            self.note(LineFault::Overflow);
+        }
+        self.status.spoiled = true;
+        false
+    }
+
+    /// Appends a byte to the frame; false if there is no room.
+    fn append(&mut self, byte: u8) -> bool {
+        let at = usize::from(self.status.received);
+        // A port of several protocols has room for more.
+        let fits = !self.ends_by_silence() || at < LONGEST_RTU;
+        let port = self.plc.port(self.number()).filter(|_| fits);
+        let place = port.and_then(|port| port.buffer.get_mut(at));
+        let has_room = place.is_some();
+        if let Some(place) = place {
+            *place = byte;
+            self.status.received += 1;
+        }
+        has_room
     }
 
     /// Handles the frame if it is whole, in a protocol whose frames have an end.
     fn end_frame(&mut self) {
-        let received = usize::from(self.status.received);
-        match self.cut(received) {
-            Cut::More => {}
+        let mut received = usize::from(self.status.received);
+        let mut cut = self.cut(received);
+        // The last character may be a whole frame.
+        while let Cut::Restart = cut {
+            let port = self.plc.port(self.number());
+            let frame = port.and_then(|port| port.buffer.get_mut(..received));
+            if let Some([first, .., last]) = frame {
+                *first = *last;
+            }
+            self.status.received = 1;
+            self.status.spoiled = false;
+            if received <= 1 {
+                return;
+            }
+            received = 1;
+            cut = self.cut(received);
+        }
+        match cut {
             Cut::Whole if self.status.spoiled => self.drop_frame(),
             Cut::Whole => self.take_frame(),
-            Cut::Restart => {
-                let port = self.plc.port(self.number());
-                let frame = port.and_then(|port| port.buffer.get_mut(..received));
-                if let Some([first, .., last]) = frame {
-                    *first = *last;
-                }
-                self.status.received = 1;
-                self.status.spoiled = false;
-                // The character may be a whole frame.
-                if received > 1 {
-                    self.end_frame();
-                }
-            }
+            Cut::More | Cut::Restart => {}
             Cut::Drop => self.drop_frame(),
         }
     }
