@@ -301,7 +301,9 @@ fn compare(maker: &mut Maker, (name, function, parts): &(&str, RtFn, Vec<Part>))
     for round in 0..ROUNDS {
         for &device in &all {
             let value = maker.rng.value(16) as i16;
-            [&mut inline, &mut called].map(|machine| set(machine, device, value));
+            for machine in [&mut inline, &mut called] {
+                set(machine, device, value);
+            }
         }
         let numbers = if bounded { 0..1 } else { 0..3 };
         let registers = numbers.flat_map(|n| [(DeviceClass::Z, n), (DeviceClass::V, n)]);
@@ -322,7 +324,9 @@ fn compare(maker: &mut Maker, (name, function, parts): &(&str, RtFn, Vec<Part>))
                 set(&mut called, (DeviceClass::D, register), value);
                 value &= mask;
             }
-            [&mut inline, &mut called].map(|machine| set(machine, (class, number), value));
+            for machine in [&mut inline, &mut called] {
+                set(machine, (class, number), value);
+            }
         }
         let reversed = reversible && maker.rng.percent(50);
         called.set_bit(Class::M, 8024, reversed);
