@@ -47,12 +47,8 @@ impl Lowerer<'_> {
     }
 
     /// Gives `make` the queue at operand `i` and the number of its entries, which faults if it is below 0.
-    fn with_entries(
-        &mut self,
-        i: usize,
-        mut guards: Guards,
-        make: impl FnOnce(&mut Self, Place, ExprId),
-    ) {
+    fn with_entries(&mut self, i: usize, make: impl FnOnce(&mut Self, Place, ExprId)) {
+        let mut guards = Guards::default();
         let queue = self.block_at(i, self.stated(2), &mut guards);
         self.guarded(guards, |this| {
             let Some(queue) = queue else {
@@ -94,19 +90,21 @@ impl Lowerer<'_> {
     /// SFWR: a full queue stays as it is.
     fn append(&mut self) {
         let places = self.stated(2) as i32 - 1;
-        let mut guards = Guards::default();
-        let value = self.source(0, &mut guards);
-        self.with_entries(1, guards, |this, queue, held| {
-            let value = this.settled(value);
-            let all = this.int(places, false);
-            let full = this.add(Expr::Cmp(CmpOp::Ge, held, all));
-            let full = this.settled(full);
-            this.set_flag(M_CARRY, full);
-            let room = this.not(full);
-            this.when(room, |this| {
-                this.count_entries(queue, held, BinOp::Add);
-                let place = this.next_entry(queue, held, places);
-                this.emit(Action::Write(Access::word(place), value));
+        self.with_entries(1, |this, queue, held| {
+            let mut guards = Guards::default();
+            let value = this.source(0, &mut guards);
+            this.guarded(guards, |this| {
+                let value = this.settled(value);
+                let all = this.int(places, false);
+                let full = this.add(Expr::Cmp(CmpOp::Ge, held, all));
+                let full = this.settled(full);
+                this.set_flag(M_CARRY, full);
+                let room = this.not(full);
+                this.when(room, |this| {
+                    this.count_entries(queue, held, BinOp::Add);
+                    let place = this.next_entry(queue, held, places);
+                    this.emit(Action::Write(Access::word(place), value));
+                });
             });
         });
     }
@@ -114,19 +112,21 @@ impl Lowerer<'_> {
     /// SFRD: the entries after the oldest move down, the last word stays.
     fn take_oldest(&mut self) {
         let length = self.stated(2);
-        let mut guards = Guards::default();
-        let target = self.result(1, &mut guards);
-        self.with_entries(0, guards, |this, queue, held| {
-            let empty = this.is_int(held, 0, false);
-            let empty = this.settled(empty);
-            this.set_flag(M_ZERO, empty);
-            let some = this.not(empty);
-            this.when(some, |this| {
-                let oldest = this.add(Expr::Read(Access::word(after(queue, 1))));
-                let oldest = this.settled(oldest);
-                this.copy_entries(queue, length - 2);
-                this.count_entries(queue, held, BinOp::Sub);
-                this.store(target, oldest);
+        self.with_entries(0, |this, queue, held| {
+            let mut guards = Guards::default();
+            let target = this.result(1, &mut guards);
+            this.guarded(guards, |this| {
+                let empty = this.is_int(held, 0, false);
+                let empty = this.settled(empty);
+                this.set_flag(M_ZERO, empty);
+                let some = this.not(empty);
+                this.when(some, |this| {
+                    let oldest = this.add(Expr::Read(Access::word(after(queue, 1))));
+                    let oldest = this.settled(oldest);
+                    this.copy_entries(queue, length - 2);
+                    this.count_entries(queue, held, BinOp::Sub);
+                    this.store(target, oldest);
+                });
             });
         });
     }
