@@ -233,10 +233,7 @@ pub fn axis_directions(model: &Model) -> Range<u32> {
 /// another.
 fn clear_signals(module: &Module, call: &Call) -> Vec<(DeviceClass, u32, u32)> {
     let all = vec![(DeviceClass::Y, 0, LAST_OUTPUT)];
-    let operand = match call.function {
-        RtFn::Zrn => 3,
-        _ => 2,
-    };
+    let operand = if call.function == RtFn::Zrn { 3 } else { 2 };
     let Some(Arg::Device { place, .. }) = call.args.get(operand) else {
         return all;
     };

@@ -35,8 +35,8 @@ impl Lowerer<'_> {
             ValueOp::RotateRight => self.rotate(true),
             ValueOp::RotateLeft => self.rotate(false),
             ValueOp::Root { clamps } => self.square_root(clamps),
-            ValueOp::ToGray => self.to_gray(),
-            ValueOp::FromGray => self.from_gray(),
+            ValueOp::ToGray => self.gray(),
+            ValueOp::FromGray => self.binary_of_gray(),
         }
     }
 
@@ -390,12 +390,12 @@ impl Lowerer<'_> {
     }
 
     /// GRY.
-    fn to_gray(&mut self) {
+    fn gray(&mut self) {
         self.of_positive(|this, value| this.mixed_with_shifted(value, 1));
     }
 
     /// GBIN.
-    fn from_gray(&mut self) {
+    fn binary_of_gray(&mut self) {
         self.of_positive(|this, value| {
             let places: &[u32] = if this.wide() {
                 &[1, 2, 4, 8, 16]

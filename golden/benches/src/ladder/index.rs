@@ -43,7 +43,7 @@ pub fn random(random: &mut Random) -> Driven {
     let relay = RELAYS + random.below(500);
     let limit = random.below(10_000);
     let sum = SUMS + random.below(SUM_COUNT);
-    let entry = Table::of_words(words_at, which % 2 == 0, pointer, a, z);
+    let entry = Table::of_words(words_at, which.is_multiple_of(2), pointer, a, z);
     let long_entry = Table::of_longs(longs_at, a, z);
     let of_table = |steps: u32, list: &str, hand: String, others: &[u32]| {
         entry.driven(steps, list, &hand, others.iter().copied())

@@ -169,7 +169,7 @@ fn values<P: Program + ?Sized, E>(program: &P, sink: Sink<'_, E>) -> Result<(), 
                 false => 0,
             };
             let contact = CONTACT * u8::from(retained.contacts && bit(number));
-            let states = contact | RESET * u8::from(kept && program.is_reset(class, number));
+            let states = contact | (RESET * u8::from(kept && program.is_reset(class, number)));
             match form {
                 Form::Bit => {
                     let bits = (number..end.min(number + 8)).rev();
