@@ -159,8 +159,8 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// A device, and in which area the runtime finds it without a search: with an index, that of its operand, where most
-    /// indexes lead.
+    /// A device, and in which area the runtime finds it without a search: with an index, that of its operand, where
+    /// most indexes lead.
     fn device(&mut self, code: &mut Code, place: &Place) {
         let area = areas::named(&self.areas, place.class, place.number);
         if let Some(area) = area {

@@ -110,8 +110,8 @@ impl Printer<'_> {
         element
     }
 
-    /// Returns true if an array of special registers is found by a separate function: those that are other names of index
-    /// registers lie between them.
+    /// Returns true if an array of special registers is found by a separate function: those that are other names of
+    /// index registers lie between them.
     pub(super) fn is_aside(&self, field: &Field) -> bool {
         is_special(field.class, field.first) && !self.aliases(field.class).is_empty()
     }

@@ -457,8 +457,8 @@ impl Checker<'_> {
         coil.place.index.is_some() && is(coil.drive, Ty::Bit) && is(coil.preset, Ty::I16)
     }
 
-    /// Returns true if the runs of a block are devices of one kind, ordinary ones that all exist where no index leads to
-    /// them.
+    /// Returns true if the runs of a block are devices of one kind, ordinary ones that all exist where no index leads
+    /// to them.
     fn block(&self, block: &Block) -> bool {
         use DeviceClass::{D, M, R, S, X, Y};
         let model = self.module.model;

@@ -1,5 +1,5 @@
-//! Instructions on blocks of devices that an index leads to, or whose length is in a register, as inline code: one check
-//! that the whole block exists, then a copy or a fill. What is checked, and in which order, is as in the runtime.
+//! Instructions on blocks of devices that an index leads to, or whose length is in a register, as inline code: one
+//! check that the whole block exists, then a copy or a fill. What is checked, and in which order, is as in the runtime.
 
 use super::Lowerer;
 use super::blocks::{MOVED, SHIFTED_BITS, SHIFTED_WORDS};

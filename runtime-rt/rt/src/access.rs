@@ -8,7 +8,7 @@ fn is_counter32(class: Class, number: i32) -> bool {
     class == Class::C && number >= FIRST_COUNTER32 as i32
 }
 
-/// Copies devices number 0 to `count` of a block, from the last on if the others lie behind those that are read.
+/// Copies devices number 0 to `count` of a block, from the last on if the others come after those that are read.
 fn in_order(from: (Class, i32), to: (Class, i32), count: i32, mut copy: impl FnMut(i32)) {
     if from.0 == to.0 && to.1 > from.1 {
         (0..count).rev().for_each(copy);

@@ -282,6 +282,30 @@ fn index_value(rng: &mut Rng) -> i16 {
     (end + rng.below(60) as i32 - 25).clamp(-32768, 32767) as i16
 }
 
+/// Gives index registers values, or the registers that they are made from.
+fn set_registers(rng: &mut Rng, bounded: bool, wide: bool, mut machines: [&mut Machine; 2]) {
+    let numbers = if bounded { 0..1 } else { 0..3 };
+    let registers = numbers.flat_map(|n| [(DeviceClass::Z, n), (DeviceClass::V, n)]);
+    for (class, number) in registers {
+        let high_word = wide && class == DeviceClass::V;
+        let mut value = if high_word { 0 } else { index_value(rng) };
+        if bounded {
+            let (register, mask) = if class == DeviceClass::Z {
+                (BOUNDED, 0x1f)
+            } else {
+                (BOUNDED + 1, 0x0f)
+            };
+            machines
+                .each_mut()
+                .map(|machine| set(machine, (DeviceClass::D, register), value));
+            value &= mask;
+        }
+        machines
+            .each_mut()
+            .map(|machine| set(machine, (class, number), value));
+    }
+}
+
 /// Executes an instruction inline and by the runtime's function, with the same random data.
 fn compare(maker: &mut Maker, (name, function, parts): &(&str, RtFn, Vec<Part>)) -> Option<()> {
     let operands: Vec<String> = parts.iter().map(|part| part.text()).collect();
@@ -305,33 +329,14 @@ fn compare(maker: &mut Maker, (name, function, parts): &(&str, RtFn, Vec<Part>))
     for round in 0..ROUNDS {
         for &device in &all {
             let value = maker.rng.value(16) as i16;
-            for machine in [&mut inline, &mut called] {
-                set(machine, device, value);
-            }
+            [&mut inline, &mut called].map(|machine| set(machine, device, value));
         }
-        let numbers = if bounded { 0..1 } else { 0..3 };
-        let registers = numbers.flat_map(|n| [(DeviceClass::Z, n), (DeviceClass::V, n)]);
-        for (class, number) in registers {
-            let high_word = name.starts_with('D') && class == DeviceClass::V;
-            let mut value = if high_word {
-                0
-            } else {
-                index_value(&mut maker.rng)
-            };
-            if bounded {
-                let (register, mask) = if class == DeviceClass::Z {
-                    (BOUNDED, 0x1f)
-                } else {
-                    (BOUNDED + 1, 0x0f)
-                };
-                set(&mut inline, (DeviceClass::D, register), value);
-                set(&mut called, (DeviceClass::D, register), value);
-                value &= mask;
-            }
-            for machine in [&mut inline, &mut called] {
-                set(machine, (class, number), value);
-            }
-        }
+        set_registers(
+            &mut maker.rng,
+            bounded,
+            name.starts_with('D'),
+            [&mut inline, &mut called],
+        );
         let reversed = reversible && maker.rng.percent(50);
         inline.set_bit(Class::X, 1, reversed);
         inline.set_bit(Class::X, 0, true);

@@ -196,9 +196,9 @@ pub struct Send {
     pub step: u32,
 }
 
-/// A copy or a fill of a run of devices: bits X, Y, M and S, or words D and R. All devices of a run exist, in one run of
-/// the model ([`Expr::InRange`](super::Expr::InRange)). Those of a place without an index are not special. Indexes, the
-/// length and the value are evaluated before anything is written.
+/// A copy or a fill of a run of devices: bits X, Y, M and S, or words D and R. All devices of a run exist, in one run
+/// of the model ([`Expr::InRange`](super::Expr::InRange)). Those of a place without an index are not special. Indexes,
+/// the length and the value are evaluated before anything is written.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Block {
     /// Copies devices to others of the same kind, as if all were read before one is written.

@@ -383,14 +383,16 @@ fn short_blocks_are_inline() {
         "LD X0\nBMOV D0 D2 K4\nBMOV D20 D10 K3\nFMOV K0 D30 K3\nDFMOV K70000 D40 K2\nZRST M0 M3\nZRST T0 T1\nZRST C235 C235\nZRST D50 D51\nMEAN D0 D60 K4\nSFTLP X0 M10 K4 K1\nSFTR M20 M24 K4 K2\nDECO D70 M30 K2\nEND\n"
     ));
     let calls = |text: &str| has_call(&module(&on(ModelId::Fx3u), text));
-    assert!(calls("LD X0\nBMOV D0Z0 D10 K2\nEND\n"));
-    assert!(calls("LD X0\nBMOV D0 D10 D2\nEND\n"));
+    assert!(!calls("LD X0\nBMOV D0Z0 D10 K2\nEND\n"));
+    assert!(!calls("LD X0\nBMOV D0 D10 D2\nEND\n"));
+    assert!(calls("LD X0\nBMOV K4M0 D10 K2\nEND\n"));
+    assert!(calls("LD X0\nWSFL D0Z0 D10Z1 K20 K17\nEND\n"));
     assert!(calls("LD X0\nZRST M8000 M8100\nEND\n"));
     assert!(!calls("LD X0\nDFMOV K1 D0 K9\nEND\n"));
     assert!(calls("LD X0\nZRST T0 T64\nEND\n"));
     // Devices that enter a shift one by one enter again where they overlap.
     assert!(calls("LD X0\nSFTL M0 M1 K20 K17\nEND\n"));
-    assert!(calls("LD X0\nBMOV D0 D10 K2\nLD X1\nOUT M8024\nEND\n"));
+    assert!(!calls("LD X0\nBMOV D0 D10 K2\nLD X1\nOUT M8024\nEND\n"));
 }
 
 #[test]
