@@ -295,14 +295,14 @@ fn set_registers(rng: &mut Rng, bounded: bool, wide: bool, mut machines: [&mut M
             } else {
                 (BOUNDED + 1, 0x0f)
             };
-            machines
-                .each_mut()
-                .map(|machine| set(machine, (DeviceClass::D, register), value));
+            for machine in &mut machines {
+                set(machine, (DeviceClass::D, register), value);
+            }
             value &= mask;
         }
-        machines
-            .each_mut()
-            .map(|machine| set(machine, (class, number), value));
+        for machine in &mut machines {
+            set(machine, (class, number), value);
+        }
     }
 }
 
@@ -329,7 +329,9 @@ fn compare(maker: &mut Maker, (name, function, parts): &(&str, RtFn, Vec<Part>))
     for round in 0..ROUNDS {
         for &device in &all {
             let value = maker.rng.value(16) as i16;
-            [&mut inline, &mut called].map(|machine| set(machine, device, value));
+            for machine in [&mut inline, &mut called] {
+                set(machine, device, value);
+            }
         }
         set_registers(
             &mut maker.rng,
