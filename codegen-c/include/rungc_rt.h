@@ -1261,7 +1261,7 @@ typedef struct rungc_generator {
     uint32_t total;
     uint32_t sent;
     /**
-     * Time of the last call, in microseconds, wrapping.
+     * Reading of the clock at the last call.
      */
     uint32_t now_us;
     /**
