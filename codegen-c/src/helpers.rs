@@ -312,13 +312,12 @@ impl Printer<'_> {
         }
     }
 
-    /// The arrays that an index leads to.
+    /// The arrays that an index leads to, or a block with devices that an index leads to.
     fn reached(&self, class: DeviceClass) -> impl Iterator<Item = &Field> {
-        let runs = &self.by_index[class as usize];
-        let arrays = self.fields.of_class(class).iter();
-        arrays.filter(move |field| {
+        let runs = self.runs(class);
+        self.arrays(class).filter(move |field| {
             let overlaps = |&(first, last): &(u32, u32)| field.first <= last && first < field.end();
-            field.array && field.grid.is_none() && runs.iter().any(overlaps)
+            runs.iter().any(overlaps)
         })
     }
 
@@ -327,7 +326,7 @@ impl Printer<'_> {
         if class != DeviceClass::D {
             return Vec::new();
         }
-        let runs = &self.by_index[class as usize];
+        let runs = self.runs(class);
         let aliases = self.module.model.index_aliases.iter();
         aliases
             .filter(|alias| {

@@ -66,7 +66,7 @@ impl Helpers {
 
 impl Printer<'_> {
     /// Runs of devices that the functions of a class may be called with.
-    fn runs(&self, class: DeviceClass) -> Vec<(u32, u32)> {
+    pub(super) fn runs(&self, class: DeviceClass) -> Vec<(u32, u32)> {
         let mut runs = self.by_index[class as usize].clone();
         let named = self.named.iter().filter(|named| named.0 == class);
         runs.extend(named.map(|&(_, first, last)| (first, last)));
@@ -88,18 +88,9 @@ impl Printer<'_> {
     }
 
     /// The arrays of a class, without those of loops over rungs.
-    fn arrays(&self, class: DeviceClass) -> impl Iterator<Item = &Field> {
+    pub(super) fn arrays(&self, class: DeviceClass) -> impl Iterator<Item = &Field> {
         let fields = self.fields.of_class(class).iter();
         fields.filter(|field| field.array && field.grid.is_none())
-    }
-
-    /// The arrays that blocks of a class lie in.
-    fn arrays_of_runs(&self, class: DeviceClass) -> impl Iterator<Item = &Field> {
-        let runs = self.runs(class);
-        self.arrays(class).filter(move |field| {
-            let overlaps = |&(first, last): &(u32, u32)| field.first <= last && first < field.end();
-            runs.iter().any(overlaps)
-        })
     }
 
     /// An element of an array, by the number of its device.
@@ -146,7 +137,7 @@ impl Printer<'_> {
             "/* `count` {c} from number n on, if they are in one array; else NULL. */\n\
              static inline {ty} *{name}_run_{c}({name}_plc *plc, int32_t n, int32_t count)\n{{\n"
         )?;
-        for field in self.arrays_of_runs(class) {
+        for field in self.reached(class) {
             let (first, end, element) = (field.first, field.end(), Self::element(field, "n"));
             write!(
                 out,
