@@ -111,7 +111,7 @@ fn crates_of_one_firmware_share_a_runtime() {
     let args = ["build", "heating.il", "motor.il", "--emit", "rust"];
     let output = rungc(path, &[&args[..], &["-o", "plc"]].concat());
     assert!(output.status.success(), "{}", text(&output.stderr));
-    let manifest = "[package]\nname = \"firmware\"\nversion = \"0.1.0\"\nedition = \"2024\"\n[workspace]\n[dependencies]\n\
+    let manifest = "[package]\nname = \"firmware\"\nversion = \"0.1.0\"\nedition = \"2024\"\n[workspace]\nexclude = [\"plc\"]\n[dependencies]\n\
                     heating = { path = \"plc/heating\" }\nmotor = { path = \"plc/motor\" }\n\
                     rungc-rt = { path = \"plc/rungc-rt\" }\n";
     let main = "fn main() {\n    let _ = (heating::Heating::new(), motor::Motor::new());\n}\n";
