@@ -176,24 +176,25 @@ impl Generator<'_> {
     /// The methods for the reset states that are retained; nothing if there are none.
     fn retained_resets(&self, class: &Ident) -> Option<TokenStream> {
         let resets: Vec<_> = self.module.retained_resets().collect();
-        let arms = |value: fn(TokenStream) -> TokenStream| -> TokenStream {
-            let arms = resets.iter().map(|&(of, number, flag)| {
-                let of = format_ident!("{of:?}");
-                let number = Literal::u32_unsuffixed(number);
-                let field = self.flag(flag);
-                let value = value(quote!(self.#field));
-                quote!((#class::#of, #number) => #value,)
+        let (mut states, mut changes) = (TokenStream::new(), TokenStream::new());
+        for &(of, number, flag) in &resets {
+            let of = format_ident!("{of:?}");
+            let number = Literal::u32_unsuffixed(number);
+            let field = self.flag(flag);
+            states.extend(quote!((#class::#of, #number) => self.#field,));
+            changes.extend(quote! {
+                if (class, number) == (#class::#of, #number) {
+                    self.#field = reset;
+                }
             });
-            arms.collect()
-        };
-        let [states, changes] = [arms(|flag| flag), arms(|flag| quote!(#flag = reset))];
+        }
         (!resets.is_empty()).then(|| {
             quote! {
                 fn is_reset(&self, class: #class, number: u32) -> bool {
                     match (class, number) { #states _ => false }
                 }
                 fn set_reset(&mut self, class: #class, number: u32, reset: bool) {
-                    match (class, number) { #changes _ => {} }
+                    #changes
                 }
             }
         })
