@@ -12,8 +12,8 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Elapsed time by a clock that may begin anywhere and wraps. Time never goes back: a reading that is up to a second behind lets no time
-   pass until the clock has caught up; one further behind is that of a clock that was set, and time continues from there. */
+/* Elapsed time by a clock that may begin anywhere and wraps. Time never goes back: a reading that is up to a second back lets no time
+   pass until the clock has caught up; one further before is that of a clock that was set, and time continues from there. */
 typedef struct plc_stopwatch {
     uint32_t reading; /* the latest reading that let time pass */
     uint32_t elapsed; /* time since the first reading, wrapping */
@@ -108,7 +108,7 @@ static inline uint32_t plc_stopwatch_advance(volatile plc_stopwatch *watch, uint
     return 0;
 }
 
-/* Lets a period in milliseconds end; returns true if one has. Periods that nobody looked at are skipped. */
+/* Lets a period in milliseconds end; returns true if one has. Periods that no one looked at are skipped. */
 static inline bool plc_stopwatch_ends(volatile plc_stopwatch *watch, uint32_t now_ms, uint32_t length_ms)
 {
     (void)plc_stopwatch_advance(watch, now_ms, PLC_SECOND_MS);

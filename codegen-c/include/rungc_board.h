@@ -126,7 +126,7 @@ typedef struct rungc_board {
     rungc_hal hal;
 
     /* Time: microseconds by a clock that may begin anywhere, wrapping. Their resolution is that of everything else. A reading that is up to
-       a second behind an earlier one has no effect. With `wake_in` it is also called in the timer's interrupt. */
+       a second before an earlier one has no effect. With `wake_in` it is also called in the timer's interrupt. */
     uint32_t (*now_us)(void *context);
 
     /* Edges: an interrupt notes each in a queue, see rungc_note_edge. Gives the oldest one that was not taken yet; false if there is none. */
@@ -179,7 +179,7 @@ static inline bool rungc_board_passes(rungc_board *board, uint32_t now_us)
     const uint32_t passed = plc_stopwatch_advance(&watch, now_us, RUNGC_SECOND_US) / 1000u;
 
     if (last_us - now_us > RUNGC_SECOND_US && last_us - now_us <= UINT32_MAX / 2u + 1u) {
-        /* The reading that is behind this one, so that the program sees that the clock was set, too. */
+        /* The reading that is before this one, so that the program sees that the clock was set, too. */
         board->now_ms -= (board->now_ms - now_us / 1000u) % RUNGC_TURN_MS;
         board->next_scan = now_us;
         return true;
@@ -188,7 +188,7 @@ static inline bool rungc_board_passes(rungc_board *board, uint32_t now_us)
     return passed != 0u;
 }
 
-/* The time between two readings; 0 if the second one is behind. */
+/* The time between two readings; 0 if the second one is back. */
 static inline uint32_t rungc_board_between(uint32_t begin_us, uint32_t end_us)
 {
     plc_stopwatch watch = {begin_us, 0};

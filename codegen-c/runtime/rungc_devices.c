@@ -321,7 +321,7 @@ bool rungc_set_word(rungc_map *map, rungc_class class_, uint32_t number, int16_t
 /* Capacity of the error log. */
 #define LOGGED 10u
 
-/* Enters an error in the log: behind the others, the oldest making place; a code that is there takes the new time and keeps its place. */
+/* Enters an error in the log: after the others, the oldest making place; a code that is there takes the new time and keeps its place. */
 static void log_code(const rungc_map *map, uint16_t code)
 {
     const int32_t hours = rungc_long_register(map, RUNGC_D_RUN_TIME) / 3600;
@@ -347,7 +347,7 @@ static void log_code(const rungc_map *map, uint16_t code)
     rungc_set_register(map, RUNGC_D_LOGGED_CODES + place, logged);
 }
 
-/* Tells the host of an error. */
+/* Reports an error to the host. */
 static void note(const rungc_map *map, uint16_t code, uint16_t step)
 {
     const rungc_layout *const layout = map->layout;

@@ -185,7 +185,7 @@ rungc_fault rungc_write_word(const rungc_call *call, rungc_operand operand, int3
     }
 }
 
-/* Word and place in it of a bit counted from the one that an operand names; it may be in one of the words behind. */
+/* Word and place in it of a bit counted from the one that an operand names; it may be in one of the words after. */
 static rungc_fault bit_of_word(rungc_operand operand, int32_t offset, uint32_t *number, unsigned *bit)
 {
     const int64_t sum = (int64_t)offset + operand.digits;

@@ -133,7 +133,7 @@ void rungc_count_pulses(const rungc_map *map, uint32_t output, const rungc_wirin
             add_to(map, wiring->sum, count);
         }
     } else {
-        /* nobody counts */
+        /* no one counts */
     }
 }
 

@@ -137,6 +137,6 @@ void rungc_end_clear_signal(rungc_job *job, const rungc_clear *clear)
         job->kept[RUNGC_KEPT_CLEAR] = 0;
         (void)set_output(job->call.map, (uint32_t)output - 1u, false);
     } else {
-        /* it goes on */
+        /* it continues */
     }
 }

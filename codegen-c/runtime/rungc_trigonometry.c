@@ -30,7 +30,7 @@
 /* 2^24. */
 #define CHUNK 16777216.0
 
-/* Bits of 2/pi behind the point, 24 each, as many as a float needs. */
+/* Bits of 2/pi after the point, 24 each, as many as a float needs. */
 static const int32_t per_half_pi[] = {0xA2F983, 0x6E4E44, 0x1529FC, 0x2757D1, 0xF534DD, 0xC0DB62, 0x95993C, 0x439041,
                                       0xFE5163, 0xABDEBB, 0xC561B7, 0x246E3A, 0x424DD2, 0xE00649, 0x2EEA09, 0xD1921C};
 

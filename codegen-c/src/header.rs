@@ -293,7 +293,7 @@ fn prototypes(out: &mut String, name: &str) {
         out,
         "/* Before the first use: everything as at the very first power-on, in RUN. */\n\
          void {name}_init({name}_plc *plc);\n\n\
-         /* One scan. `now_ms`: milliseconds by a clock that may begin anywhere and wraps; a reading that is up to a second behind an earlier\n   \
+         /* One scan. `now_ms`: milliseconds by a clock that may begin anywhere and wraps; a reading that is up to a second before an earlier\n   \
          one has no effect. `scan_us`: how long the last scan took, for D8010 to D8012. */\n\
          void {name}_scan({name}_plc *plc, uint32_t now_ms, uint32_t scan_us);\n\n\
          /* State of output terminal Y `terminal` (a plain number: 8 is Y010) after a scan; off in STOP. */\n\

@@ -163,7 +163,8 @@ fn library(runtime: bool) -> &'static str {
     if runtime { " $(LIBRARY)" } else { "" }
 }
 
-/// A Makefile that builds all programs, of which none has the name of another; those that call the runtime link this one.
+/// A Makefile that builds all programs, of which none has the name of another; those that call the runtime link this
+/// one.
 pub(crate) fn makefile(recipes: &[Recipe], linked: &Runtime) -> String {
     let count = recipes.len();
     let runtime = linked.is_library();

@@ -141,7 +141,9 @@ impl Generator<'_> {
         let (parameter, hal) = (hal_parameter(asks), self.rt("Hal"));
         (!says_nothing).then(|| {
             quote! {
-                fn tick(&mut self, #parameter: &mut dyn #hal, now_ms: u32) { #(#periods)* #pass #(#clocks)* #pulses #ports }
+                fn tick(&mut self, #parameter: &mut dyn #hal, now_ms: u32) {
+                    #(#periods)* #pass #(#clocks)* #pulses #ports
+                }
             }
         })
     }

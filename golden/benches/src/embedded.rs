@@ -119,7 +119,7 @@ pub fn measure(
     measure_all(ladder, Some(ladder), codes, level, count)
 }
 
-/// The same of a program that nobody wrote by hand.
+/// The same of a program that no one wrote by hand.
 pub fn measure_emitted(
     program: &dyn Source,
     codes: &[Code],

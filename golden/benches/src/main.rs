@@ -70,7 +70,7 @@ enum Section {
     Control,
     /// Time of a scan of step ladders.
     Sequence,
-    /// Time of a scan with tables behind index registers.
+    /// Time of a scan with tables with index registers.
     Index,
     /// Time of a scan with blocks of words.
     Recipe,

@@ -1,4 +1,4 @@
-//! Programs that people wrote for machines, from a folder: instructions and bytes that a scan takes. Nobody wrote them
+//! Programs that people wrote for machines, from a folder: instructions and bytes that a scan takes. No one wrote them
 //! in C by hand, so figures are compared with earlier ones.
 
 use crate::embedded::{self, Level};

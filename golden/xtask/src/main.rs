@@ -1,6 +1,7 @@
 //! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file, `cargo xtask
 //! package` the packages that are published, `cargo xtask platforms` checks other systems, `cargo xtask campaign`
-//! compares engines for hours, `cargo xtask pairs` measures the prover. No crate may depend on this one. Start reading at `generate.rs`, the table of generated
+//! compares engines for hours, `cargo xtask pairs` measures the prover. No crate may depend on this one. Start
+//! reading at `generate.rs`, the table of generated
 //! files.
 
 mod book;

@@ -1,4 +1,5 @@
-//! `cargo xtask pairs`: the prover's precision on real programs. Of every program in some folders, each two outputs that
+//! `cargo xtask pairs`: the prover's precision on real programs. Of every program in some folders, each two outputs
+//! that
 //! it drives exclude each other, or a run shows that they do not; the rest is counted by its reason.
 
 use crate::Problem;
@@ -35,7 +36,7 @@ pub struct Args {
 /// Endings of the names of programs.
 const ENDINGS: [&str; 5] = ["wpg", "gxw", "csv", "il", "st"];
 
-/// Processor time of a pair above which it is shown, as it is no answer while somebody waits.
+/// Processor time of a pair above which it is shown, too long for somebody who waits.
 const SLOW: Duration = Duration::from_secs(10);
 
 /// Verdicts on the pairs of a program.

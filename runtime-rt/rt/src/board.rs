@@ -95,7 +95,8 @@ use crate::stopwatch::{Divider, Microseconds};
 
 /// Time source of a board.
 pub trait Timebase {
-    /// Microseconds by a clock that may begin anywhere, wrapping. Their resolution is that of pulses and scans. Characters of serial
+    /// Microseconds by a clock that may begin anywhere, wrapping. Their resolution is that of pulses and scans.
+    /// Characters of serial
     /// ports carry times by the same clock.
     fn now_us(&mut self) -> u32;
 }

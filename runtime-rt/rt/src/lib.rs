@@ -1,6 +1,7 @@
 //! Runtime of PLC instructions.
 //!
-//! `no_std`, no allocation; only a bug could panic. The interpreter, emitted Rust and (through the C ABI, feature `capi`) emitted C
+//! `no_std`, no allocation; only a bug could panic. The interpreter, emitted Rust and (through the C ABI, feature
+//! `capi`) emitted C
 //! all call the same functions here, so an instruction has one meaning. An instruction sees the PLC through [`Plc`]
 //! (its devices) and [`Hal`] (its hardware), and its operands through [`Cx`].
 //!

@@ -216,7 +216,8 @@ impl Generator {
         }
     }
 
-    /// Counts the pulses that have ended since the last call. Call it at least every half an hour; what time passes by these readings,
+    /// Counts the pulses that have ended since the last call. Call it at least every half an hour; what time passes
+    /// by these readings,
     /// [`Microseconds`] says.
     pub fn advance(&mut self, now_us: u32) -> u32 {
         if !self.busy {

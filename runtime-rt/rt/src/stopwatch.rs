@@ -2,8 +2,10 @@
 
 /// Elapsed time by a wrapping clock of 32 bits, a second of which has `SECOND` units.
 ///
-/// Time never goes back: a reading that is up to a second behind the last one lets no time pass, and neither do those after it until
-/// the clock has caught up. A reading further behind is that of a clock that was set: time continues from there. So does a clock that was
+/// Time never goes back: a reading that is up to a second before the last one lets no time pass, and neither do those
+/// after it until
+/// the clock has caught up. A reading further before is that of a clock that was set: time continues from there. So
+/// does a clock that was
 /// not read for more than half its range; how long, it cannot tell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[repr(C)]
@@ -52,13 +54,13 @@ impl<const SECOND: u32> Stopwatch<SECOND> {
         self.behind(reading).is_some_and(|behind| behind > SECOND)
     }
 
-    /// The units by which a reading is behind the last one; `None` if it is not.
+    /// The units by which a reading is before the last one; `None` if it is not.
     fn behind(&self, reading: u32) -> Option<u32> {
         let behind = self.reading.wrapping_sub(reading);
         (1..=u32::MAX / 2 + 1).contains(&behind).then_some(behind)
     }
 
-    /// Lets a period end; returns true if one of this length (not 0) has. Periods that nobody looked at are skipped.
+    /// Lets a period end; returns true if one of this length (not 0) has. Periods that no one looked at are skipped.
     pub fn ends_period(&mut self, reading: u32, length: u32) -> bool {
         self.advance(reading);
         let ends = self.elapsed >= length;
@@ -69,7 +71,8 @@ impl<const SECOND: u32> Stopwatch<SECOND> {
     }
 }
 
-/// A clock of milliseconds made of one of microseconds. 1000 times its reading is that of the other at the start of the millisecond, both
+/// A clock of milliseconds made of one of microseconds. 1000 times its reading is that of the other at the start of
+/// the millisecond, both
 /// wrapping, so that times by either can be compared.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Divider {
@@ -90,7 +93,7 @@ impl Divider {
     pub fn advance(&mut self, now_us: u32) -> bool {
         let watch = Microseconds::at(self.ms.wrapping_mul(1000));
         if watch.is_set(now_us) {
-            // The reading that is behind this one, so that the program sees that it was set, too.
+            // The reading that is before this one, so that the program sees that it was set, too.
             let set = Self::at(now_us).ms;
             let ahead = self.ms.wrapping_sub(set) % Self::TURN;
             self.ms = self.ms.wrapping_sub(ahead);

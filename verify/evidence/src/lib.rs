@@ -132,7 +132,8 @@ pub struct Verified {
     pub requirement: Option<String>,
     /// Property as written, with its name if it has one.
     pub property: String,
-    /// Verdict in a word: `proved`, `violated`, `reached`, `not reachable`, `vacuous` or `not decided`; of an output that
+    /// Verdict in a word: `proved`, `violated`, `reached`, `not reachable`, `vacuous` or `not decided`; of an output
+    /// that
     /// is compared with that of an older program, `the same` or `differs`.
     pub verdict: &'static str,
     /// True if the program has the property, false if not; `None` if that is not decided.

@@ -270,7 +270,8 @@ pub fn search(question: &dyn Question, world: &World, posed: &Posed, limit: &Lim
     let mut induction = Induction::new(&posed.system, limit);
     let mut as_it_is = Attempt::new(|| posed.clone().simplified(&limit.part(ROUND.0)));
     for scans in 1..=INDUCTION {
-        // Bits that are always equal make a proof short: where the clock of a duration equals a timer of the program, no
+        // Bits that are always equal make a proof short: where the clock of a duration equals a timer of the program,
+        // no
         // search scan by scan comes to an end.
         if scans == EARLY
             && let Some(proof) = as_it_is.invariant(ROUND.0 / 2, limit)

@@ -116,9 +116,9 @@ fn build(
     if reporter.is_for_people() {
         let lines = compiled.ports.iter().map(ports::line);
         let served = ports::served(&compiled.ports, plan, subject);
-        lines.chain(served).for_each(|line| cx.note(&line));
         let library = library::note(&module).filter(|_| plan.emit == Some(Emit::C));
-        library.iter().for_each(|line| cx.note(line));
+        let lines = lines.chain(served).chain(library);
+        lines.for_each(|line| cx.note(&line));
     }
     if let (Some(takes), true) = (&findings.takes, reporter.is_for_people()) {
         print_text(&takes.to_string())?;

@@ -93,12 +93,8 @@ pub fn run(args: &VerifyArgs, cx: Context) -> Result {
     export::questions(args, &module, &requested, &options, cx)?;
     let mut decided = decisions(&requested, &module, &options);
     withdraw(&mut decided, &module, &options, &assumed);
-    let certificates = export::proofs(
-        args,
-        proofs(&requested, &decided),
-        solver_time(&options),
-        cx,
-    )?;
+    let found = proofs(&requested, &decided);
+    let certificates = export::proofs(args, found, solver_time(&options), cx)?;
     let runs = shown(&requested, &decided);
     let replayed = engines::replay(args.replay, std::slice::from_ref(&module), &runs, cx)?;
     for (number, why) in replayed.differing {

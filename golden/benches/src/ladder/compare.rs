@@ -113,7 +113,7 @@ fn contacts(which: u32, drawn: &Drawn) -> Driven {
     Driven::new(steps, list, hand, registers).with(Form::Contacts)
 }
 
-/// Instructions that compare, and those behind comparison contacts.
+/// Instructions that compare, and those with comparison contacts.
 fn instructions(which: u32, drawn: &Drawn) -> Driven {
     let Drawn {
         a,

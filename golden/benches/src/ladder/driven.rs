@@ -12,7 +12,7 @@ pub const WORDS: u32 = 200;
 /// Position of instructions in a rung.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Form {
-    /// Behind contacts, executed while these conduct.
+    /// With contacts, executed while these conduct.
     Driven,
     /// Executed in each scan.
     Always,
@@ -38,7 +38,7 @@ pub struct Driven {
 }
 
 impl Driven {
-    /// Instructions behind contacts; `list` has them with `;` between.
+    /// Instructions with contacts; `list` has them with `;` between.
     pub fn new(steps: u32, list: String, hand: String, devices: Vec<Device>) -> Self {
         Driven {
             form: Form::Driven,

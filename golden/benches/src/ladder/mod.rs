@@ -8,8 +8,8 @@
 //! | `process` | `contacts` with moves of blocks, shifts, queues, conversions and floats |
 //! | `control` | `contacts` with PID loops and limits, which emitted C calls the runtime for |
 //! | `sequence` | step ladders: rings of states with coils, timers and interlocks |
-//! | `index` | `contacts` with tables of words and long words behind index registers |
-//! | `recipe` | `contacts` with blocks that are copied, filled, cleared, shifted, many behind index registers |
+//! | `index` | `contacts` with tables of words and long words with index registers |
+//! | `recipe` | `contacts` with blocks that are copied, filled, cleared, shifted, many with index registers |
 //! | `display` | `contacts` with digits for lamps and from thumbwheels, selections of lamps, words as bits |
 //! | `compare` | `contacts` with comparison contacts, CMP, ZCP, limits with hysteresis |
 //! | `float` | `contacts` with scaled analogue values, filters, arithmetic of floats, LIMIT |
@@ -62,7 +62,7 @@ pub enum Kind {
     Control,
     /// Step ladders.
     Sequence,
-    /// Tables behind index registers as well.
+    /// Tables with index registers as well.
     Index,
     /// Blocks of words as well.
     Recipe,

@@ -38,7 +38,7 @@ const TIMERS: [(std::ops::Range<u32>, u32); 3] = [(0..192, 100), (200..246, 10),
 /// A state of a sequence.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct State {
-    /// Coils, some of them behind a contact.
+    /// Coils, some of them with a contact.
     coils: Vec<(Device, Option<Contact>)>,
     /// A relay that it sets or resets.
     latch: Option<(u32, bool)>,
@@ -208,7 +208,7 @@ impl State {
     fn list(&self, out: &mut String, number: u32, next: u32, is_last: bool) {
         // Writing to a String does not fail.
         let _ = writeln!(out, "STL S{number}");
-        // Coils behind contacts come last: what follows is behind them, too.
+        // Coils with contacts come last: what follows is with them, too.
         for (device, _) in self.coils.iter().filter(|(_, gate)| gate.is_none()) {
             let _ = writeln!(out, "OUT {}", name(*device));
         }

@@ -57,7 +57,7 @@ const BEGINS: [u32; 6] = [
     u32::MAX,
 ];
 
-/// A clock: its first reading, and by how much it is read behind now and then, in its units.
+/// A clock: its first reading, and by how much it is read back now and then, in its units.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Misread {
     begin: u32,
@@ -74,7 +74,8 @@ impl Misread {
     }
 }
 
-/// Results of a run: when the timer was done and the clock relay changed, in 50 ms since it began; the longest scan, and
+/// Results of a run: when the timer was done and the clock relay changed, in 50 ms since it began; the longest scan,
+/// and
 /// interrupts in tens.
 fn shown(done: u32, changes: &[u32], most: i16, interrupts: i16) -> String {
     let mut text = format!("{done}:");

@@ -1,10 +1,9 @@
 //! Random programs, with random inputs, must do the same on all engines, optimised and not: every device is compared
 //! after each scan.
 //!
-//! The environment variables `RUNGC_RANDOM_PROGRAMS`, `RUNGC_RANDOM_SCANS` and `RUNGC_RANDOM_SEED` make it longer, or
-//! another one; `RUNGC_RANDOM_WAY` names one way to run the programs instead of the three engines: `rust`, `interp`,
-//! `parts` (C with the runtime in C), a C compiler with its flags (`clang -O3`), or a simulated microcontroller with the
-//! language (`cortex-m4 c`).
+//! The environment variables `RUNGC_RANDOM_PROGRAMS`, `RUNGC_RANDOM_SCANS` and `RUNGC_RANDOM_SEED` change their extent;
+//! `RUNGC_RANDOM_WAY` names one way to run them instead of the three engines: `rust`, `interp`, `parts` (C with the
+//! runtime in C), a C compiler with its flags (`clang -O3`), or a simulated chip with the language (`cortex-m4 c`).
 //!
 //! Where the environment names the run ([`rungc_golden::part`]), there are fewer programs: a third of the random ones,
 //! from a seed that follows from the name, and the rows of one model.

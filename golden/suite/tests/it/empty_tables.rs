@@ -6,8 +6,10 @@ use rungc_models::ModelId;
 use std::path::Path;
 use std::process::Command;
 
-/// Programs, each of which leaves some table without an entry: one without anything; without inputs, outputs, errors, texts, latched
-/// devices or instructions; with a port that speaks no protocol, that speaks one, that is named only; with pulses and nothing else.
+/// Programs, each of which leaves some table without an entry: one without anything; without inputs, outputs, errors,
+/// texts, latched
+/// devices or instructions; with a port that speaks no protocol, that speaks one, that is named only; with pulses and
+/// nothing else.
 const PROGRAMS: [(ModelId, &str); 13] = [
     (ModelId::Fx2n, "END\n"),
     (ModelId::H2u, "END\n"),

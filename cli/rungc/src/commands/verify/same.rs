@@ -59,14 +59,7 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
         super::deliver(args, reporter, String::new, super::UNUSABLE, cx)?;
         return Ok(Outcome::Unusable);
     };
-    if old_module.model.name != new_module.model.name {
-        let models = [&old_module, &new_module].map(|module| module.model.name.to_uppercase());
-        let why = format!(
-            "the programs are for different models: {} and {}",
-            models[0], models[1]
-        );
-        return Err(Failure::Because(why));
-    }
+    check_models([&old_module, &new_module])?;
     export::can_prove(args)?;
     let modules = [old_module, new_module];
     let mut compared = compare(&modules[0], &modules[1], &options);
@@ -113,6 +106,19 @@ pub fn run(args: &VerifyArgs, old: &Path, cx: Context) -> Result {
     );
     super::deliver(args, reporter, text, &summary, cx)?;
     Ok(outcomes.max().unwrap_or(Outcome::Success))
+}
+
+/// Rejects programs for different models.
+fn check_models(modules: [&Module; 2]) -> std::result::Result<(), Failure> {
+    let [old, new] = modules.map(|module| module.model.name);
+    if old == new {
+        return Ok(());
+    }
+    Err(Failure::Because(format!(
+        "the programs are for different models: {} and {}",
+        old.to_uppercase(),
+        new.to_uppercase()
+    )))
 }
 
 /// The older program, which is read as the newer one.
