@@ -87,8 +87,7 @@ fn build(
     }
     let shares = reporter.many() && plan.shares();
     let name = match shares {
-        // A Makefile needs a plain name.
-        true => module.name.clone(),
+        true => module.name.clone(), // a Makefile needs a plain name
         false => file_name(&name, &module.name),
     };
     let job = Job {
@@ -117,8 +116,8 @@ fn build(
         let lines = compiled.ports.iter().map(ports::line);
         let served = ports::served(&compiled.ports, plan, subject);
         let library = library::note(&module).filter(|_| plan.emit == Some(Emit::C));
-        let lines = lines.chain(served).chain(library);
-        lines.for_each(|line| cx.note(&line));
+        let all = lines.chain(served).chain(library);
+        all.for_each(|line| cx.note(&line));
     }
     if let (Some(takes), true) = (&findings.takes, reporter.is_for_people()) {
         print_text(&takes.to_string())?;
