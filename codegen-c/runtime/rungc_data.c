@@ -193,32 +193,6 @@ void rungc_enco_zero(rungc_map *map, rungc_site site, rungc_operand s, rungc_ope
 
 /* ---- SUM S D counts bits, BON S D n takes one, MEAN S D n is the mean of n elements ----------------------------------------------- */
 
-static rungc_fault sum(const rungc_call *call, const rungc_operand operands[])
-{
-    uint32_t bits = 0;
-    rungc_fault fault = rungc_read_bits(call, operands[0], &bits);
-
-    if (fault == RUNGC_OK) {
-        fault = rungc_write(call, operands[1], plc_ones32(plc_int32(bits)));
-    }
-    if (fault == RUNGC_OK) {
-        rungc_set_relay(call->map, M_ZERO, bits == 0u);
-    }
-    return fault;
-}
-
-static rungc_fault bon(const rungc_call *call, const rungc_operand operands[])
-{
-    int32_t n = 0;
-    uint32_t bits = 0;
-    rungc_fault fault = rungc_read_in(call, operands[2], 0, call->site.wide ? 31 : 15, &n);
-
-    if (fault == RUNGC_OK) {
-        fault = rungc_read_bits(call, operands[0], &bits);
-    }
-    return (fault != RUNGC_OK) ? fault : rungc_write_bit(call, operands[1], 0, ((bits >> (uint32_t)n) & 1u) != 0u);
-}
-
 /* Count and sum of the elements. */
 static rungc_fault add_up(const rungc_call *call, const rungc_operand operands[], int32_t *count, int64_t *total)
 {
@@ -262,20 +236,6 @@ static rungc_fault mean_sum(const rungc_call *call, const rungc_operand operands
         fault = rungc_write_word(call, operands[1], 0, (int16_t)(total / count));
     }
     return (fault != RUNGC_OK) ? fault : rungc_write_long(call, operands[1], 1, (int32_t)total);
-}
-
-void rungc_sum(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d)
-{
-    const rungc_operand operands[] = {s, d};
-
-    rungc_run(map, site, operands, sum);
-}
-
-void rungc_bon(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n)
-{
-    const rungc_operand operands[] = {s, d, n};
-
-    rungc_run(map, site, operands, bon);
 }
 
 void rungc_mean(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n)
@@ -375,47 +335,3 @@ void rungc_anr(rungc_map *map, rungc_site site)
 }
 
 /* ---- SQR S D: the root, its fraction dropped -------------------------------------------------------------------------------------- */
-
-/* M8020 shows 0, M8021 a dropped fraction. */
-static rungc_fault write_root(const rungc_call *call, rungc_operand d, int32_t value)
-{
-    const int32_t root = plc_root(value);
-    const rungc_fault fault = rungc_write(call, d, root);
-
-    if (fault == RUNGC_OK) {
-        rungc_set_relay(call->map, M_ZERO, root == 0);
-        rungc_set_relay(call->map, M_BORROW, (root * root) != value);
-    }
-    return fault;
-}
-
-static rungc_fault sqr(const rungc_call *call, const rungc_operand operands[])
-{
-    int32_t value = 0;
-    const rungc_fault fault = rungc_read_in(call, operands[0], 0, INT32_MAX, &value);
-
-    return (fault != RUNGC_OK) ? fault : write_root(call, operands[1], value);
-}
-
-/* On HM the root of a negative number is 0. */
-static rungc_fault sqr_clamped(const rungc_call *call, const rungc_operand operands[])
-{
-    int32_t value = 0;
-    const rungc_fault fault = rungc_read(call, operands[0], &value);
-
-    return (fault != RUNGC_OK) ? fault : write_root(call, operands[1], (value > 0) ? value : 0);
-}
-
-void rungc_sqr(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d)
-{
-    const rungc_operand operands[] = {s, d};
-
-    rungc_run(map, site, operands, sqr);
-}
-
-void rungc_sqr_clamped(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d)
-{
-    const rungc_operand operands[] = {s, d};
-
-    rungc_run(map, site, operands, sqr_clamped);
-}

@@ -21,28 +21,6 @@ static uint64_t rotate_right(uint64_t ring, uint32_t width, uint32_t places)
     return ((ring >> by) | (ring << (width - by))) & mask;
 }
 
-/* The bit that passed the end last is also in the carry flag. Nothing happens if n is 0. */
-static rungc_fault rotate(const rungc_call *call, const rungc_operand operands[], bool right)
-{
-    const uint32_t width = width_of(call);
-    int32_t places = 0;
-    uint32_t bits = 0;
-    rungc_fault fault = rungc_read_in(call, operands[1], 0, (int32_t)width, &places);
-
-    if (fault == RUNGC_OK) {
-        fault = rungc_read_bits(call, operands[0], &bits);
-    }
-    if ((fault != RUNGC_OK) || (places == 0)) {
-        return fault;
-    }
-    bits = (uint32_t)rotate_right(bits, width, right ? (uint32_t)places : width - (uint32_t)places);
-    fault = rungc_write(call, operands[0], plc_int32(bits));
-    if (fault == RUNGC_OK) {
-        rungc_set_relay(call->map, M_CARRY, ((right ? bits >> (width - 1u) : bits) & 1u) != 0u);
-    }
-    return fault;
-}
-
 static rungc_fault rotate_through_carry(const rungc_call *call, const rungc_operand operands[], bool right)
 {
     const uint32_t width = width_of(call);
@@ -66,16 +44,6 @@ static rungc_fault rotate_through_carry(const rungc_call *call, const rungc_oper
     return fault;
 }
 
-static rungc_fault ror(const rungc_call *call, const rungc_operand operands[])
-{
-    return rotate(call, operands, true);
-}
-
-static rungc_fault rol(const rungc_call *call, const rungc_operand operands[])
-{
-    return rotate(call, operands, false);
-}
-
 static rungc_fault rcr(const rungc_call *call, const rungc_operand operands[])
 {
     return rotate_through_carry(call, operands, true);
@@ -84,20 +52,6 @@ static rungc_fault rcr(const rungc_call *call, const rungc_operand operands[])
 static rungc_fault rcl(const rungc_call *call, const rungc_operand operands[])
 {
     return rotate_through_carry(call, operands, false);
-}
-
-void rungc_ror(rungc_map *map, rungc_site site, rungc_operand d, rungc_operand n)
-{
-    const rungc_operand operands[] = {d, n};
-
-    rungc_run(map, site, operands, ror);
-}
-
-void rungc_rol(rungc_map *map, rungc_site site, rungc_operand d, rungc_operand n)
-{
-    const rungc_operand operands[] = {d, n};
-
-    rungc_run(map, site, operands, rol);
 }
 
 void rungc_rcr(rungc_map *map, rungc_site site, rungc_operand d, rungc_operand n)

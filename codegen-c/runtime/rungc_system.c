@@ -12,29 +12,6 @@ enum {
 
 /* ---- The running time in seconds, once a scan after the program ------------------------------------------------------------------- */
 
-static int32_t milliseconds(const rungc_call *call)
-{
-    const uint32_t passed = rungc_sys(call->map)->dt_ms;
-
-    return (passed > (uint32_t)INT32_MAX) ? INT32_MAX : (int32_t)passed;
-}
-
-static rungc_fault run_time(const rungc_call *call, const rungc_operand operands[])
-{
-    int32_t *const kept = rungc_kept(call);
-    const int32_t ms = plc_sat_add32(kept[0], milliseconds(call));
-
-    (void)operands;
-    kept[0] = ms % 1000;
-    rungc_set_long_register(call->map, D_RUN_TIME, plc_add32(rungc_long_register(call->map, D_RUN_TIME), ms / 1000));
-    return RUNGC_OK;
-}
-
-void rungc_run_time(rungc_map *map, rungc_site site)
-{
-    rungc_run(map, site, NULL, run_time);
-}
-
 /* ---- Analog inputs and potentiometers, once a scan before the program ------------------------------------------------------------- */
 
 /* Those that D8114 switches on. */
@@ -79,18 +56,3 @@ void rungc_potentiometers(rungc_map *map, rungc_site site)
 }
 
 /* ---- D8398 and D8399 count milliseconds up to 2147483647 and from 0 again, once a scan before the program ------------------------- */
-
-static rungc_fault ring_counter(const rungc_call *call, const rungc_operand operands[])
-{
-    const uint32_t before = (uint32_t)rungc_long_register(call->map, D_SLOW_RING_COUNTER);
-    const uint32_t count = (before + (uint32_t)milliseconds(call)) & 0x7FFFFFFFu;
-
-    (void)operands;
-    rungc_set_long_register(call->map, D_SLOW_RING_COUNTER, (int32_t)count);
-    return RUNGC_OK;
-}
-
-void rungc_ring_counter(rungc_map *map, rungc_site site)
-{
-    rungc_run(map, site, NULL, ring_counter);
-}
