@@ -7,12 +7,19 @@
 typedef struct found {
     bool exists;
     rungc_area_kind kind;
-    uint8_t *at;
+    void *at;
 } found;
 
 /* Devices of a size in bytes, by rungc_area_kind. */
 static const uint8_t device_size[] = {sizeof(bool), sizeof(int16_t), sizeof(plc_timer), sizeof(plc_counter16),
                                       sizeof(plc_counter32)};
+
+void *rungc_part_at(const rungc_map *map, size_t offset)
+{
+    uint8_t *const plc = map->plc;
+
+    return plc + offset;
+}
 
 /* The device in this area, if that stores it; otherwise `at` is NULL. */
 static found in_area(const rungc_map *map, const rungc_area *area, rungc_class device_class, uint32_t number)
@@ -33,7 +40,7 @@ static found in_area(const rungc_map *map, const rungc_area *area, rungc_class d
         place = (column * rows) + (place / area->columns);
     }
     device.exists = true;
-    device.at = (uint8_t *)map->plc + area->offset + ((size_t)place * device_size[area->kind]);
+    device.at = rungc_part_at(map, area->offset + ((size_t)place * device_size[area->kind]));
     return device;
 }
 
@@ -126,7 +133,7 @@ static bool has_word(rungc_class device_class, uint32_t number)
 
 bool rungc_find_word(const rungc_map *map, uint8_t area, rungc_class device_class, uint32_t number, int16_t **word)
 {
-    const found device = find(map, area, device_class, number);
+    found device = find(map, area, device_class, number);
 
     *word = NULL;
     if (device.at == NULL) {
@@ -134,13 +141,13 @@ bool rungc_find_word(const rungc_map *map, uint8_t area, rungc_class device_clas
     }
     switch (device.kind) {
     case RUNGC_AREA_KIND_WORDS:
-        *word = (int16_t *)(void *)device.at;
+        *word = device.at;
         return true;
     case RUNGC_AREA_KIND_TIMERS:
-        *word = &((plc_timer *)(void *)device.at)->value;
+        *word = &((plc_timer *)device.at)->value;
         return true;
     case RUNGC_AREA_KIND_COUNTERS16:
-        *word = &((plc_counter16 *)(void *)device.at)->value;
+        *word = &((plc_counter16 *)device.at)->value;
         return true;
     default:
         return false;
@@ -149,7 +156,7 @@ bool rungc_find_word(const rungc_map *map, uint8_t area, rungc_class device_clas
 
 bool rungc_find_bit(const rungc_map *map, uint8_t area, rungc_class device_class, uint32_t number, bool **bit)
 {
-    const found device = find(map, area, device_class, number);
+    found device = find(map, area, device_class, number);
 
     *bit = NULL;
     if (device.at == NULL) {
@@ -157,16 +164,16 @@ bool rungc_find_bit(const rungc_map *map, uint8_t area, rungc_class device_class
     }
     switch (device.kind) {
     case RUNGC_AREA_KIND_BITS:
-        *bit = (bool *)(void *)device.at;
+        *bit = device.at;
         return true;
     case RUNGC_AREA_KIND_TIMERS:
-        *bit = &((plc_timer *)(void *)device.at)->done;
+        *bit = &((plc_timer *)device.at)->done;
         return true;
     case RUNGC_AREA_KIND_COUNTERS16:
-        *bit = &((plc_counter16 *)(void *)device.at)->done;
+        *bit = &((plc_counter16 *)device.at)->done;
         return true;
     case RUNGC_AREA_KIND_COUNTERS32:
-        *bit = &((plc_counter32 *)(void *)device.at)->done;
+        *bit = &((plc_counter32 *)device.at)->done;
         return true;
     default:
         return false;
@@ -175,14 +182,14 @@ bool rungc_find_bit(const rungc_map *map, uint8_t area, rungc_class device_class
 
 bool rungc_find_counter32(const rungc_map *map, uint32_t number, int32_t **value)
 {
-    const found device = find(map, 0u, RUNGC_CLASS_C, number);
+    found device = find(map, 0u, RUNGC_CLASS_C, number);
 
     *value = NULL;
     if (device.at == NULL) {
         return device.exists && (number >= (uint32_t)RUNGC_FIRST_COUNTER32);
     }
     if (device.kind == RUNGC_AREA_KIND_COUNTERS32) {
-        *value = &((plc_counter32 *)(void *)device.at)->value;
+        *value = &((plc_counter32 *)device.at)->value;
         return true;
     }
     return false;
@@ -190,20 +197,20 @@ bool rungc_find_counter32(const rungc_map *map, uint32_t number, int32_t **value
 
 bool rungc_reset_device(const rungc_map *map, rungc_class device_class, uint32_t number)
 {
-    const found device = find(map, 0u, device_class, number);
+    found device = find(map, 0u, device_class, number);
 
     if (device.at == NULL) {
         return device.exists && ((device_class == RUNGC_CLASS_T) || (device_class == RUNGC_CLASS_C));
     }
     switch (device.kind) {
     case RUNGC_AREA_KIND_TIMERS:
-        plc_timer_reset((plc_timer *)(void *)device.at);
+        plc_timer_reset(device.at);
         return true;
     case RUNGC_AREA_KIND_COUNTERS16:
-        plc_count16_reset((plc_counter16 *)(void *)device.at);
+        plc_count16_reset((plc_counter16 *)device.at);
         return true;
     case RUNGC_AREA_KIND_COUNTERS32:
-        plc_count32_reset((plc_counter32 *)(void *)device.at);
+        plc_count32_reset((plc_counter32 *)device.at);
         return true;
     default:
         return false;
@@ -212,7 +219,7 @@ bool rungc_reset_device(const rungc_map *map, rungc_class device_class, uint32_t
 
 const plc_sys *rungc_sys(const rungc_map *map)
 {
-    return (const plc_sys *)(const void *)((const uint8_t *)map->plc + map->layout->sys);
+    return rungc_part_at(map, map->layout->sys);
 }
 
 int32_t *rungc_kept(const rungc_call *call)
@@ -223,7 +230,7 @@ int32_t *rungc_kept(const rungc_call *call)
     if ((slot == 0u) || (slot > layout->state_count)) {
         return call->map->none._0;
     }
-    rungc_state *const states = (rungc_state *)(void *)((uint8_t *)call->map->plc + layout->states);
+    rungc_state *const states = rungc_part_at(call->map, layout->states);
     return states[slot - 1u]._0;
 }
 
@@ -353,13 +360,13 @@ static void note(const rungc_map *map, uint16_t code, uint16_t step)
     const rungc_layout *const layout = map->layout;
 
     if (layout->error > 0u) {
-        plc_error *const error = (plc_error *)(void *)((uint8_t *)map->plc + layout->error);
+        plc_error *const error = rungc_part_at(map, layout->error);
 
         error->code = code;
         error->step = step;
     }
     if (layout->on_error > 0u) {
-        plc_on_error *const *const on_error = (plc_on_error *const *)(const void *)((const uint8_t *)map->plc + layout->on_error);
+        plc_on_error *const *const on_error = rungc_part_at(map, layout->on_error);
 
         if (*on_error != NULL) {
             (*on_error)(map->plc, code, step);

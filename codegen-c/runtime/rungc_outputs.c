@@ -17,7 +17,7 @@ enum { AXIS_POSITION = 18, AXIS_INCREMENT = 22, D_OUTPUT_PULSES = 80 };
 rungc_axis *rungc_axis_of(const rungc_map *map, uint32_t output)
 {
     const rungc_layout *const layout = map->layout;
-    rungc_axis *const axes = (rungc_axis *)(void *)((uint8_t *)map->plc + layout->axes);
+    rungc_axis *const axes = rungc_part_at(map, layout->axes);
 
     for (size_t i = 0; i < layout->output_count; i++) {
         if (layout->outputs[i] == output) {
@@ -273,8 +273,9 @@ static rungc_fault find_output(rungc_job *job, rungc_operand operand)
 
 void rungc_run_pulses(rungc_map *map, rungc_site site, const rungc_operand operands[], unsigned output, rungc_pulse_work *work)
 {
-    rungc_job job = {rungc_call_at(map, site), family_of(map), NULL, NULL, NULL, 0};
+    rungc_job job = {.family = family_of(map)};
 
+    job.call = rungc_call_at(map, site);
     job.kept = rungc_kept(&job.call);
     /* A signal concerns an instruction only while it sends. */
     if (site.signal && ((job.kept[RUNGC_KEPT_DRIVE] == 0) || (job.kept[RUNGC_KEPT_PHASE] != PHASE_SENDS))) {

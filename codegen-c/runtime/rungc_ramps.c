@@ -3,7 +3,7 @@
  */
 #include "rungc_ramps.h"
 
-static uint32_t held(int64_t value, uint32_t least, uint32_t most)
+uint32_t rungc_within(int64_t value, uint32_t least, uint32_t most)
 {
     if (value < (int64_t)least) {
         return least;
@@ -17,8 +17,8 @@ rungc_profile rungc_profile_from(const rungc_job *job, const rungc_ramps *regist
     const bool there = registers->base != 0u;
     rungc_profile profile;
 
-    profile.highest = held(there ? rungc_long_register(map, registers->highest) : 0, RUNGC_LOWEST_HZ, job->family->highest_hz);
-    profile.base = held(there ? rungc_register(map, registers->base) : 0, 0, profile.highest / 10u);
+    profile.highest = rungc_within(there ? rungc_long_register(map, registers->highest) : 0, RUNGC_LOWEST_HZ, job->family->highest_hz);
+    profile.base = rungc_within(there ? rungc_register(map, registers->base) : 0, 0, profile.highest / 10u);
     profile.up_ms = there ? rungc_ramp_ms(map, registers->up) : (uint32_t)RUNGC_SHORTEST_RAMP_MS;
     profile.down_ms = there ? rungc_ramp_ms(map, registers->down) : (uint32_t)RUNGC_SHORTEST_RAMP_MS;
     profile.raises_speeds = job->family->raises_speeds;

@@ -17,6 +17,9 @@ typedef struct rungc_profile {
     bool raises_speeds; /* a speed that ramps cannot begin with is raised */
 } rungc_profile;
 
+/* The value, or the limit that it exceeds. */
+uint32_t rungc_within(int64_t value, uint32_t least, uint32_t most);
+
 /* Ramps of positioning: those of this output alone while the relay for that is on; or those of all outputs, whatever it says. */
 rungc_profile rungc_profile_of(const rungc_job *job);
 rungc_profile rungc_profile_for_all(const rungc_job *job);

@@ -160,14 +160,6 @@ typedef struct speeds {
     uint32_t creep;
 } speeds;
 
-static uint32_t held(int32_t value, int32_t least, uint32_t most)
-{
-    if (value < least) {
-        return (uint32_t)least;
-    }
-    return ((uint32_t)value > most) ? most : (uint32_t)value;
-}
-
 /* Speeds that contradict each other are an error, others are held in their limits. */
 static rungc_fault read_home_speeds(const rungc_job *job, speeds *read)
 {
@@ -185,13 +177,13 @@ static rungc_fault read_home_speeds(const rungc_job *job, speeds *read)
     if ((creep < 0) || (creep < base) || (fast < base) || (highest < creep)) {
         return RUNGC_NO_DEVICE;
     }
-    read->profile.highest = held(highest, LOWEST_RETURN_HZ, job->family->highest_hz);
-    read->profile.base = held(base, 0, read->profile.highest);
+    read->profile.highest = rungc_within(highest, LOWEST_RETURN_HZ, job->family->highest_hz);
+    read->profile.base = rungc_within(base, 0, read->profile.highest);
     read->profile.up_ms = rungc_ramp_ms(map, home->ramps.up);
     read->profile.down_ms = rungc_ramp_ms(map, home->ramps.down);
     read->profile.raises_speeds = false;
-    read->fast = held(fast, LOWEST_RETURN_HZ, read->profile.highest);
-    read->creep = held(creep, RUNGC_LOWEST_HZ, read->profile.highest);
+    read->fast = rungc_within(fast, LOWEST_RETURN_HZ, read->profile.highest);
+    read->creep = rungc_within(creep, RUNGC_LOWEST_HZ, read->profile.highest);
     return RUNGC_OK;
 }
 

@@ -46,7 +46,9 @@ impl Part {
         let runtime = match unit.runtime {
             false => Runtime::None,
             // A main program with servers or connections needs a host's services.
-            true if options.main && (options.servers || options.io) => Runtime::Library,
+            true if options.library || options.main && (options.servers || options.io) => {
+                Runtime::Library
+            }
             true => Parts::of(module).map_or(Runtime::Library, Runtime::C),
         };
         let shared = Shared {

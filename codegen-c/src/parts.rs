@@ -274,7 +274,11 @@ fn wiring(families: &[Pulses]) -> String {
         let name = format!("{family:?}").to_ascii_lowercase();
         let outputs = family.outputs();
         if !outputs.is_empty() {
-            let _ = writeln!(text, "static const rungc_wiring {name}_outputs[] = {{");
+            let count = outputs.len();
+            let _ = writeln!(
+                text,
+                "static const rungc_wiring {name}_outputs[{count}] = {{"
+            );
             for (number, output) in outputs.iter().enumerate() {
                 let _ = writeln!(text, "    [{number}] = {{{}}},", members(output).join(", "));
             }

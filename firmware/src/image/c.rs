@@ -53,6 +53,8 @@ pub fn project(image: &Image) -> std::io::Result<Vec<OutFile>> {
     let options = rungc_codegen_c::Options {
         board: true,
         retain: image.retain().is_some(),
+        // Modules between the program and the pins are those of the library.
+        library: !image.modules().is_empty(),
         ..Default::default()
     };
     let emitted = rungc_codegen_c::emit(image.module, &options);

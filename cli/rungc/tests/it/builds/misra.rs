@@ -55,13 +55,17 @@ fn emitted_c_deviates_from_the_listed_rules_only() {
         let list = fs::read_to_string(inside.join("misra.txt")).unwrap();
         let rules = list.lines().filter(|line| line.starts_with("misra-"));
         listed.extend(rules.map(str::to_string));
-        // One finding hides others at the same place.
-        let first = reported(&inside, &[]);
-        let suppressed = first.iter().map(|rule| format!("--suppress={rule}"));
-        all.extend(reported(&inside, &suppressed.collect::<Vec<_>>()));
-        all.extend(first);
+        all.extend(reported(&inside, &[]));
         let left = reported(&inside, &["--suppressions-list=misra.txt".to_string()]);
         assert!(left.is_empty(), "{name}: {left:?}");
+    }
+    // One finding hides others at the same place.
+    for name in PROGRAMS {
+        if all != listed {
+            let found = all.iter().map(|rule| format!("--suppress={rule}"));
+            let hidden = reported(&path.join(name), &found.collect::<Vec<_>>());
+            all.extend(hidden);
+        }
     }
     // A deviation that no longer occurs leaves the list.
     assert_eq!(all, listed);
