@@ -8,14 +8,13 @@ use crate::Read;
 use crate::gx::cpu;
 use crate::il;
 use crate::listing::Listing;
-use crate::text::{append, clean};
+use crate::text::{Joined, Lines, clean};
 use csv::{StringRecord, WriterBuilder};
 use layout::Layout;
 use rows::Rows;
 use rungc_syntax::{
     Diagnostics, Instr, Operand, OperandKind, Operands, Program, Remarks, SourceKind, Span, codes,
 };
-use smol_str::SmolStr;
 
 pub(crate) use comments::{comments, is_comments, is_cross_reference, not_comments};
 pub(crate) use layout::{HEADERS, detect, table};
@@ -42,12 +41,13 @@ pub(crate) fn read(name: &str, text: &str, layout: Layout) -> Read {
             reader.unclosed();
         }
     }
+    reader.end_note();
     reader.reject_other_family();
     reader.program.kind = SourceKind::Csv;
     reader.program.source = reader.listing.finish(name);
     head.statements = reader.statements;
     head.notes = reader.notes;
-    reader.program.closing = reader.statement;
+    reader.program.closing = reader.statement.take();
     Read {
         program: reader.program,
         diagnostics: reader.diagnostics,
@@ -126,7 +126,9 @@ struct Reader {
     diagnostics: Diagnostics,
     listing: Listing,
     /// Statements that wait for the instruction below them.
-    statement: Option<SmolStr>,
+    statement: Lines,
+    /// Note of the last instruction, from its rows so far.
+    note: Joined<' '>,
     statements: Vec<StatementRow>,
     notes: Vec<NoteRow>,
     /// Row of the instruction at hand, from 0 at its mnemonic.
@@ -155,7 +157,8 @@ impl Reader {
             program: Program::default(),
             diagnostics: Diagnostics::new(),
             listing: Listing::default(),
-            statement: None,
+            statement: Lines::default(),
+            note: Joined::default(),
             statements: Vec::new(),
             notes: Vec::new(),
             row: 0,
@@ -227,7 +230,7 @@ impl Reader {
             .into_iter()
             .filter_map(clean);
         for statement in statements.clone() {
-            append(&mut self.statement, statement);
+            self.statement.push(&statement);
         }
         for (column, text) in [(1, line_statement), (5, pointer_statement)] {
             if clean(text).is_some() {
@@ -251,7 +254,8 @@ impl Reader {
             self.listing.comment(&statement);
         }
         if let (Some(read), Current::Last | Current::Label) = (clean(note), self.current) {
-            self.note(read);
+            self.listing.comment(&read);
+            self.note.push(&read);
             self.notes.push(NoteRow {
                 instr: self.program.instrs.len() - 1,
                 row: self.row,
@@ -336,6 +340,7 @@ impl Reader {
         } else {
             Current::Last
         };
+        self.end_note();
         self.program.instrs.push(Instr {
             mnemonic,
             mnemonic_span,
@@ -376,14 +381,10 @@ impl Reader {
         self.program.unread.push(self.program.instrs.len() as u32);
     }
 
-    fn note(&mut self, note: SmolStr) {
-        self.listing.comment(&note);
-        if let Some(instr) = self.program.instrs.last_mut() {
-            let all = &mut instr.remarks_mut().note;
-            *all = match all.take() {
-                None => Some(note),
-                Some(first) => Some(format!("{first} {note}").into()),
-            };
+    /// Gives the last instruction its note.
+    fn end_note(&mut self) {
+        if let (Some(note), Some(instr)) = (self.note.take(), self.program.instrs.last_mut()) {
+            instr.remarks_mut().note = Some(note);
         }
     }
 }

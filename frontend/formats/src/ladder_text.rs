@@ -56,7 +56,7 @@ pub(crate) fn read(name: &str, text: &str) -> Read {
     drop(lines);
     reader.finish_block();
     let mut program = reader.list.program;
-    program.closing = reader.list.statement;
+    program.closing = reader.list.statement.take();
     program.source = source;
     program.kind = SourceKind::Ladder;
     Read {

@@ -5,7 +5,7 @@ use super::tokens::{self, Bare, Prefixes, Token};
 use crate::encoding::decode_text;
 use crate::learned::{self, LearnedCodes, Reading, Unproven};
 use crate::listing::Listing;
-use crate::text::{append, clean};
+use crate::text::{Lines, clean};
 use crate::{Read, ReadOptions};
 use encoding_rs::Encoding;
 use rungc_syntax::{
@@ -225,7 +225,7 @@ struct Reader<'l> {
     /// Labels that operands name, with the place of the first.
     names: Option<(Span, Vec<String>)>,
     /// Statements that wait for the instruction below them.
-    statement: Option<SmolStr>,
+    statement: Lines,
     current: Current,
     prefixes: Prefixes,
     /// The step of the next instruction; nothing after bytes that could not be read.
@@ -242,7 +242,7 @@ impl<'l> Reader<'l> {
             listing: Listing::default(),
             unproven: Vec::new(),
             names: None,
-            statement: None,
+            statement: Lines::default(),
             current: Current::None,
             prefixes: Prefixes::default(),
             step: Some(0),
@@ -258,7 +258,7 @@ impl<'l> Reader<'l> {
             Some(Token::Statement(_)) => {
                 let text = self.text();
                 if let Some(text) = clean(&text) {
-                    append(&mut self.statement, text);
+                    self.statement.push(&text);
                 }
             }
             Some(Token::Note(_)) => {

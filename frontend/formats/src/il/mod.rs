@@ -20,7 +20,7 @@ pub(crate) mod windows;
 
 use crate::Read;
 use crate::gx::cpu;
-use crate::text::{append, clean};
+use crate::text::{Lines, clean};
 use fault::{Faults, Wanted};
 use fold::Folded;
 use rungc_syntax::{
@@ -80,7 +80,7 @@ pub(crate) struct Reader {
     /// Errors in the current line.
     faults: Faults,
     /// Comment lines that wait for the instruction below them.
-    pub(crate) statement: Option<SmolStr>,
+    pub(crate) statement: Lines,
 }
 
 impl Reader {
@@ -164,7 +164,7 @@ impl Reader {
             let property = comment.and_then(|c| c.strip_prefix('!'));
             let end = begin + original.len() as u32;
             if !property.is_some_and(|property| self.property(property, end)) {
-                append(&mut self.statement, text);
+                self.statement.push(&text);
             }
         }
     }

@@ -311,7 +311,7 @@ impl Reader {
         let Some(pointer) = heading.pointer else {
             // A comment about the main program stays with its first instruction.
             if let Some(note) = note {
-                crate::text::append(&mut self.statement, note);
+                self.statement.push(&note);
             }
             return;
         };
