@@ -1,9 +1,11 @@
 //! The special devices that functions use without naming them in operands: flags of results and modes.
 
+use crate::comm::can::M_LATE;
 use crate::registry::{Needs, RtFn};
 use crate::special::{
-    D_RANDOM, M_BLOCK_COMPARE, M_BMOV_REVERSE, M_BORROW, M_BYTE_MODE, M_CARRY, M_MEAN_SUM,
-    M_SMOV_HEX, M_TEXT_OPEN, M_ZERO, Register, Relay,
+    D_ANALOG_INPUTS, D_ANALOG_OUTPUTS, D_INPUT_FILTER, D_RANDOM, M_BLOCK_COMPARE, M_BMOV_REVERSE,
+    M_BORROW, M_BYTE_MODE, M_CARRY, M_COMPLETE, M_MEAN_SUM, M_SMOV_HEX, M_START_PULSE,
+    M_STL_MONITOR, M_TEXT_OPEN, M_TRANSFER_OFF, M_TRANSFER_START, M_ZERO, Register, Relay,
 };
 
 /// Special devices that a function uses beside its operands. What an operation error writes is not among them.
@@ -37,11 +39,33 @@ impl RtFn {
         Some(Specials {
             reads: self.modes(),
             writes: self.flags(),
-            registers: match self {
-                RtFn::Rnd => const { &D_RANDOM.run::<2>() },
-                _ => &[],
-            },
+            registers: self.registers(),
         })
+    }
+
+    /// Relays and registers that it may write in addition to its operands, the devices that belong to its pulse output
+    /// ([`crate::Wiring::shown_relays`]) or its serial port, and those of operation errors; `None`: perhaps any.
+    pub fn shown(self) -> Option<(&'static [Relay], &'static [Register])> {
+        let needs = self.needs();
+        let asks_hardware = needs.hal && self.transfer().is_none();
+        let is_known = match self {
+            RtFn::Ref | RtFn::RefHm | RtFn::Reff | RtFn::Vrrd | RtFn::Vrsc => true,
+            RtFn::Potentiometers => true,
+            RtFn::Oscilloscope | RtFn::LogError | RtFn::Zpush | RtFn::Zpop => false,
+            _ => !(asks_hardware || needs.any_port || needs.can || needs.anywhere),
+        };
+        is_known.then(|| (self.flags(), self.registers()))
+    }
+
+    /// Registers that it reads and writes.
+    fn registers(self) -> &'static [Register] {
+        match self {
+            RtFn::Rnd => const { &D_RANDOM.run::<2>() },
+            RtFn::Reff => &[D_INPUT_FILTER],
+            RtFn::Potentiometers => const { &D_ANALOG_INPUTS.run::<2>() },
+            RtFn::ToHost => const { &D_ANALOG_OUTPUTS.run::<8>() },
+            _ => &[],
+        }
     }
 
     /// The operands that it writes, by number, if it is known to write no others; `None`: perhaps any of them.
@@ -107,6 +131,20 @@ impl RtFn {
             | RtFn::BkcmpNe
             | RtFn::BkcmpLe
             | RtFn::BkcmpGe => &[M_BLOCK_COMPARE],
+            RtFn::Incd | RtFn::Ramp | RtFn::Sort | RtFn::Mtr | RtFn::Hky | RtFn::Dsw => {
+                &[M_COMPLETE]
+            }
+            RtFn::Segl | RtFn::Pr | RtFn::PrSignalsOff | RtFn::Abs | RtFn::Saver => &[M_COMPLETE],
+            RtFn::Rbfm | RtFn::Wbfm => &[M_COMPLETE],
+            RtFn::FromRemote | RtFn::ToRemote => &[M_LATE],
+            RtFn::Ist => &[
+                M_STL_MONITOR,
+                M_TRANSFER_OFF,
+                M_TRANSFER_START,
+                M_START_PULSE,
+            ],
+            _ if self.needs().pulses => &[M_COMPLETE],
+            _ if self.needs().port || self.needs().names_port => &[M_COMPLETE],
             _ => &[],
         }
     }

@@ -1,7 +1,7 @@
 //! The special devices of pulse outputs, by family of models.
 
 use crate::axis_place as place;
-use crate::special::{Register, Relay};
+use crate::special::{D_OUTPUT_USE, Register, Relay};
 use core::ops::Range;
 
 /// Registers D with the speeds and times of ramps.
@@ -632,6 +632,22 @@ impl Wiring {
             .chain(clears)
             .chain(interrupt)
             .chain(self.axis.into_iter().flat_map(of_axes))
+    }
+
+    /// Relays that the runtime writes: they show pulses, and instructions that send them.
+    pub fn shown_relays(&self) -> impl Iterator<Item = Relay> {
+        let relays = self.busy.into_iter().chain([self.driven, self.aborted]);
+        relays.flatten()
+    }
+
+    /// Registers that the runtime writes: counts of pulses, and on HM all of axes.
+    pub fn shown_registers(&self) -> impl Iterator<Item = Register> {
+        let counts = [self.position, self.pulses, self.sum].into_iter().flatten();
+        let uses = self.axis.map(|_| D_OUTPUT_USE.run::<16>());
+        counts
+            .flat_map(Register::run::<2>)
+            .chain(self.axis.into_iter().flat_map(of_axes))
+            .chain(uses.into_iter().flatten())
     }
 }
 

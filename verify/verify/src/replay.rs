@@ -13,7 +13,7 @@ use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 
 /// Gives a piece of memory its value; whether a host can.
-fn set(machine: &mut Machine, hal: &mut VirtualHal, key: Key, value: i64) -> bool {
+pub(crate) fn set(machine: &mut Machine, hal: &mut VirtualHal, key: Key, value: i64) -> bool {
     let done = match key {
         Key::Buffer(module, address) => hal.set_bfm(module.into(), address as u16, value as i16),
         Key::Bit(class, number) => {
@@ -37,7 +37,7 @@ fn set(machine: &mut Machine, hal: &mut VirtualHal, key: Key, value: i64) -> boo
 }
 
 /// Present value of a piece of memory that a host can set, but for buffer memory.
-fn get(machine: &Machine, key: Key) -> Option<i64> {
+pub(crate) fn get(machine: &Machine, key: Key) -> Option<i64> {
     let bit = |class, number| machine.bit(class, number).map(i64::from);
     let word = |class, number| machine.word(class, number).map(i64::from);
     match key {

@@ -60,7 +60,7 @@ const COMMANDS: [&[u8]; 11] = [
 ];
 
 /// Relay that GW sets in all PLCs on the line.
-const M_GLOBAL: u32 = 8126;
+pub(super) const M_GLOBAL: u32 = 8126;
 
 /// Settings of the protocol by port and model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

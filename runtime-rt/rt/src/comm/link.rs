@@ -20,8 +20,8 @@
 //! master of an N:N link begins each round with its own block, then asks one slave after the other. Every station takes
 //! the blocks of all others. In STOP a PLC neither asks nor answers.
 
-mod nn;
-mod parallel;
+pub(super) mod nn;
+pub(super) mod parallel;
 mod text;
 
 use super::computer_link::master::{self, Job, Schedule};

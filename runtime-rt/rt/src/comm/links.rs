@@ -69,11 +69,7 @@ impl Session<'_> {
                 self.plc.ports(),
                 Ports::Inovance | Ports::L01s | Ports::Fx | Ports::Fx3 | Ports::Fx3g
             );
-        self.own
-            .wiring
-            .format
-            .filter(|_| has)
-            .map(Devices::of_block)
+        self.own.wiring.on_demand().filter(|_| has)
     }
 
     /// Sends what the program asks to be sent on demand.

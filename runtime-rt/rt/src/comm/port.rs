@@ -17,7 +17,7 @@ use crate::special::Relay;
 pub const FRAME: usize = 528;
 
 /// The parallel link is set up wrongly: M8070 and M8071 are both on.
-const M_SET_UP_WRONGLY: Relay = Relay(8073);
+pub(super) const M_SET_UP_WRONGLY: Relay = Relay(8073);
 
 /// One port while it is advanced. `S` is its protocol side as far as that is known when a program is built: then the
 /// devices and the hardware are known, too, and the rest of this is not linked.

@@ -2,6 +2,7 @@
 
 mod fx;
 mod rules;
+mod shown;
 mod tables;
 
 use super::LineFault;

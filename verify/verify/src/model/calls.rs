@@ -7,48 +7,15 @@ use crate::bits::{Bits, known, signed};
 use rungc_ir::node::{Action, Arg, Call, Fetch};
 use rungc_ir::reach::{beyond_operands, of_action, written_by};
 use rungc_models::runs::is_special;
-use rungc_rt::special::D_ANALOG_INPUTS;
-use rungc_rt::{Register, RtFn, Transfer};
+use rungc_rt::{RtFn, Transfer};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
-
-/// Special devices that an instruction of the runtime may write: all but those that the scan alone maintains, M8000 to
-/// M8003 and M8011 to M8014, and M8033 and M8034, which no instruction does.
-const SPECIAL: [(DeviceClass, u32, u32); 4] = [
-    (DeviceClass::M, 8004, 8010),
-    (DeviceClass::M, 8015, 8032),
-    (DeviceClass::M, 8035, u32::MAX),
-    (DeviceClass::D, 8000, u32::MAX),
-];
 
 /// Name of operands in buffer memory.
 const BUFFER: &str = "buffer memory of special modules";
 
 /// Maximum number of words of a FROM that are known to be those of the module.
 const MOVED: i32 = 256;
-
-/// Devices written by an operation error.
-const ERRORS: [(DeviceClass, u32, u32); 5] = [
-    (DeviceClass::M, 8004, 8006),
-    (DeviceClass::M, 8067, 8069),
-    (DeviceClass::D, 8004, 8006),
-    (DeviceClass::D, 8067, 8069),
-    // The error log.
-    (DeviceClass::D, 8490, 8509),
-];
-
-/// Special devices that a function may write, if it is known to write no others.
-fn own_specials(function: RtFn) -> Option<Vec<(DeviceClass, u32, u32)>> {
-    let register = |of: Register| (DeviceClass::D, of.number(), of.number());
-    if function == RtFn::Potentiometers {
-        return Some(D_ANALOG_INPUTS.run::<2>().map(register).into());
-    }
-    let specials = function.specials()?;
-    let relays = specials.writes.iter();
-    let relays = relays.map(|of| (DeviceClass::M, of.number(), of.number()));
-    let registers = specials.registers.iter().map(|&of| register(of));
-    Some(relays.chain(registers).chain(ERRORS).collect())
-}
 
 /// Description of what a PLC does by itself before or after the program.
 fn own_work(function: RtFn) -> String {
@@ -72,24 +39,13 @@ impl Encoder<'_> {
             .collect()
     }
 
-    /// The special devices that the runtime may write. An index register is not one of them, even if a special
-    /// register is another name for it.
-    pub(super) fn specials(&self) -> Vec<Key> {
-        let mut keys = self.named_in(&SPECIAL);
-        keys.retain(|key| !matches!(key, Key::Word(DeviceClass::V | DeviceClass::Z, _)));
-        keys
-    }
-
     /// Everything that a call may write.
     pub(super) fn of_call(&self, call: &Call) -> Vec<Key> {
         let needs = call.function.needs();
         if needs.anywhere {
             return self.state.keys().copied().collect();
         }
-        let mut keys = match own_specials(call.function) {
-            Some(own) => self.named_in(&own),
-            None => self.specials(),
-        };
+        let mut keys = self.shown_by(call.function);
         keys.extend(self.named_in(&beyond_operands(self.module, call)));
         // A panel may choose the output of a clear signal.
         let chooses = |&(class, number): &(DeviceClass, u32)| {
@@ -247,7 +203,7 @@ impl Encoder<'_> {
         // There may be no module, and its memory may change while a scan is under way: a replay shows neither.
         let (fails, changes) = (answer(self, "fails"), answer(self, "changes"));
         let faulty = self.aig.and(guard, fails);
-        self.apply(&self.specials(), faulty, BUFFER, &seen);
+        self.apply(&self.of_errors(), faulty, BUFFER, &seen);
         let cell = Key::Cell(fetch.value.0);
         let any = self.applied(32, BUFFER, seen.of(cell), &seen.bits);
         let value = match self.buffer(fetch) {
@@ -288,7 +244,7 @@ impl Encoder<'_> {
 
     pub(super) fn send(&mut self, action: &Action, step: u32, guard: Lit) {
         let mut keys = self.of_operands(action);
-        keys.extend(self.specials());
+        keys.extend(self.of_errors());
         self.begin_instruction(step);
         let seen = self.seen(action, false, step);
         self.apply(&keys, guard, BUFFER, &seen);
@@ -298,7 +254,7 @@ impl Encoder<'_> {
 
     /// An operation error found inline.
     pub(super) fn fault(&mut self, action: &Action, step: u32, guard: Lit) {
-        let keys = self.named_in(&ERRORS);
+        let keys = self.of_errors();
         self.begin_instruction(step);
         let seen = self.seen(action, false, step);
         self.apply(

@@ -335,10 +335,11 @@ impl Encoder<'_> {
                 });
             }
         }
-        if module.sends_pulses() || module.has_ports() {
-            self.external.extend(self.specials());
+        if module.sends_pulses() {
+            self.external.extend(self.of_outputs());
         }
         if module.has_ports() {
+            self.external.extend(self.of_ports());
             let called = called_functions(module);
             for (function, _) in module
                 .functions
@@ -383,9 +384,9 @@ impl Encoder<'_> {
             }
             Action::Fetch(ref fetch) => {
                 self.external.insert(Key::Cell(fetch.value.0));
-                self.external.extend(self.specials());
+                self.external.extend(self.of_errors());
             }
-            Action::Send(_) | Action::Fault { .. } => self.external.extend(self.specials()),
+            Action::Send(_) | Action::Fault { .. } => self.external.extend(self.of_errors()),
             Action::Clear { latched } => {
                 let keys = self.cleared(latched);
                 self.external.extend(keys);

@@ -9,14 +9,17 @@ mod blocks;
 mod calls;
 mod eval;
 mod exec;
+mod gaps;
 mod memory;
 mod probes;
 mod restart;
 mod shared;
+mod shown;
 #[cfg(test)]
 mod tests;
 mod timing;
 
+pub use gaps::Gap;
 pub use memory::device_of;
 pub(crate) use memory::is_settable;
 pub use probes::{Compared, Expiry, Probes, Rung, Written};
@@ -124,17 +127,6 @@ pub enum Digit {
     Tens,
     /// The remainder.
     Ones,
-}
-
-/// Something that is not modelled exactly, so that any value is assumed to be possible.
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct Gap {
-    /// Step of the instruction that causes it, or else of the network in which it is, if it is in one.
-    pub step: Option<u32>,
-    /// True if that is the step of the instruction.
-    pub is_instruction: bool,
-    /// Description, as the end of "not modelled: …".
-    pub what: String,
 }
 
 /// Assumptions about the environment of the program.
@@ -372,76 +364,6 @@ impl<'m> Encoder<'m> {
             false => self.module.watchdog_ms(),
         };
         Module::scan_steps(ms).into()
-    }
-
-    /// A free value, because of something that is not modelled.
-    pub(crate) fn fresh(&mut self, width: usize, what: &str) -> Bits {
-        let gap = self.gap(what);
-        self.fresh_of(width, gap)
-    }
-
-    fn gap(&mut self, what: &str) -> usize {
-        if self.instruction.is_some() {
-            return self.gap_of(Gap {
-                step: self.instruction,
-                is_instruction: true,
-                what: what.to_string(),
-            });
-        }
-        let network = self
-            .network
-            .and_then(|n| self.module.networks.get(n as usize));
-        self.gap_of(Gap {
-            step: network.map(|network| network.step),
-            is_instruction: false,
-            what: what.to_string(),
-        })
-    }
-
-    fn gap_of(&mut self, gap: Gap) -> usize {
-        let next = self.gaps.len();
-        let number = *self.gap_numbers.entry(gap.clone()).or_insert(next);
-        if number == next {
-            self.gaps.push(gap);
-        }
-        number
-    }
-
-    /// A free value, because an index can lead to very many devices.
-    fn fresh_by_index(&mut self, width: usize) -> Bits {
-        const WHAT: &str = "an index that can lead to very many devices";
-        let networks = self
-            .network
-            .map_or(&[][..], |n| &self.module.networks[n as usize..]);
-        let steps = match networks {
-            [this, next, ..] => this.step..next.step,
-            [this] => this.step..u32::MAX,
-            [] => 0..0,
-        };
-        let origins = self.module.origins.iter();
-        let indexed: Vec<_> = origins
-            .filter(|origin| steps.contains(&origin.step) && !origin.indexed.is_empty())
-            .collect();
-        let gap = match indexed[..] {
-            [] => self.gap(WHAT),
-            [only] => self.gap_of(Gap {
-                step: Some(only.step),
-                is_instruction: true,
-                what: format!("{} ({WHAT})", only.text),
-            }),
-            [..] => {
-                let texts: Vec<&str> = indexed.iter().map(|origin| origin.text.as_str()).collect();
-                self.gap(&format!("{} ({WHAT})", texts.join(", ")))
-            }
-        };
-        self.fresh_of(width, gap)
-    }
-
-    fn fresh_of(&mut self, width: usize, gap: usize) -> Bits {
-        let bits = self.aig.inputs_of(width);
-        let named = bits.iter().map(|&bit| (bit, Input::Gap(gap)));
-        self.inputs.extend(named);
-        bits
     }
 
     /// Makes all memory arbitrary where the rest of a scan is not modelled.

@@ -148,7 +148,7 @@ impl Encoder<'_> {
             }
             Action::Edge(ref edge) => vec![Key::Edge(edge.memory.0)],
             Action::Call(ref call) => self.of_call(call),
-            Action::Fetch(_) | Action::Send(_) | Action::Fault { .. } => self.specials(),
+            Action::Fetch(_) | Action::Send(_) | Action::Fault { .. } => self.of_errors(),
             Action::Clear { latched } => self.cleared(latched),
             _ => Vec::new(),
         }

@@ -3,6 +3,7 @@
 
 use super::{Block, Link, set_relay, set_value, text, value};
 use crate::comm::{Frame, LineFault, Map, hex_digits};
+use core::ops::RangeInclusive;
 
 /// Own station, number of slaves and mode, as accepted.
 const D_ACCEPTED: u32 = 8173;
@@ -30,6 +31,12 @@ const M_FAULTS: u32 = 8183;
 const M_MORE_FAULTS: u32 = 8310;
 /// Transfer in progress.
 const M_ACTIVE: u32 = 8191;
+/// Relays that a link writes.
+pub(in crate::comm) const RELAYS: [RangeInclusive<u32>; 2] =
+    [M_FAULTS..=M_ACTIVE, M_MORE_FAULTS..=M_MORE_FAULTS + 7];
+/// Registers that a link writes.
+pub(in crate::comm) const REGISTERS: [RangeInclusive<u32>; 2] =
+    [D_ACCEPTED..=D_ACCEPTED + 2, D_ROUND..=D_CODES + 7];
 
 /// A station has not answered, or the master is not received; the codes are FX's.
 const CODE_TIME_OUT: u16 = 0x01;

@@ -5,7 +5,7 @@ use crate::comm::{Frame, LineFault, Map};
 use crate::plc::Class;
 
 /// The link is running.
-const M_RUNNING: u32 = 8072;
+pub(in crate::comm) const M_RUNNING: u32 = 8072;
 /// High-speed mode: two words each way.
 const M_HIGH_SPEED: u32 = 8162;
 /// Milliseconds after which a missing partner is an error.

@@ -29,6 +29,12 @@ impl ModbusWiring {
         Register(self.0 + after)
     }
 
+    /// Relays that exchanges write.
+    pub(super) fn relays(self) -> [Relay; 5] {
+        let [busy, failed, since_run] = [self.busy(), self.failed(), self.failed_since_run()];
+        [busy, failed, since_run, self.tried(), self.late()]
+    }
+
     /// All registers.
     pub(super) fn registers(self) -> [Register; 13] {
         Register(self.0).run()
