@@ -225,6 +225,7 @@ mod tests {
             constraints: vec![either],
             replay_assumptions: vec![!gap],
             first_replay_assumptions: Vec::new(),
+            lags: Vec::new(),
             bad,
             aig,
         };

@@ -15,6 +15,7 @@ pub mod certificate;
 pub mod deep;
 pub mod effort;
 pub mod engines;
+pub mod lag;
 pub mod model;
 pub mod pdr;
 pub mod proof;

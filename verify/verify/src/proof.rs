@@ -2,6 +2,7 @@
 
 use crate::aig::{Aig, Lit};
 use crate::effort::Limit;
+use crate::lag::{self, Lag};
 use crate::pdr::Cube;
 use crate::reduce::reduced;
 use crate::system::System;
@@ -16,23 +17,31 @@ pub enum Method {
     Invariant(Vec<Cube>),
 }
 
-/// Invariant of memory: a latch keeps its initial value, or changes whenever another one does.
+/// Invariant of memory.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Fact {
-    /// The latch, by its number in the system.
-    pub latch: usize,
-    /// The other one.
-    pub like: Option<usize>,
+pub enum Fact {
+    /// A latch keeps its initial value, or changes whenever another one does.
+    Bit {
+        /// The latch, by its number in the system.
+        latch: usize,
+        /// The other one.
+        like: Option<usize>,
+    },
+    /// A clock is not ahead of a timer by more than this.
+    Lag(Lag),
 }
 
 impl Fact {
     /// The fact in terms of what latches hold: before a scan, or after it.
     pub fn holds(self, system: &System, aig: &mut Aig, of: &dyn Fn(usize) -> Lit) -> Lit {
         let changed = |latch: usize| of(latch).invert_if(system.latches[latch].init == Some(true));
-        let this = changed(self.latch);
-        match self.like {
-            Some(other) => aig.same(this, changed(other)),
-            None => !this,
+        match self {
+            Fact::Bit {
+                latch,
+                like: Some(other),
+            } => aig.same(changed(latch), changed(other)),
+            Fact::Bit { latch, like: None } => !changed(latch),
+            Fact::Lag(lag) => lag.holds(system, aig, of),
         }
     }
 }
@@ -115,14 +124,15 @@ impl Posed {
         if self.from.is_some() {
             return self;
         }
-        let Some(reduced) = reduced(&self.system, limit) else {
+        let Some(mut reduced) = reduced(&self.system, limit) else {
             return self;
         };
+        let lags = lag::suppose(&self.system, &mut reduced, limit);
         let (system, kept) = reduced.sliced();
         Posed {
             system,
             from: Some(Origin {
-                facts: reduced.facts,
+                facts: [reduced.facts, lags].concat(),
                 kept,
                 system: self.system,
             }),

@@ -90,8 +90,9 @@ fn lasts(encoder: &mut Encoder, holds: Lit, ms: u32) -> Lit {
     if ms == 0 {
         return holds;
     }
-    let held = last(encoder, holds);
-    let clock = Clock::new(encoder, ms, held);
+    let (held, was_held) = encoder.monitor(1, 0);
+    encoder.remember(held, vec![holds]);
+    let clock = Clock::new(encoder, ms, (held, was_held[0]));
     clock.store(encoder, holds)
 }
 
@@ -110,8 +111,8 @@ struct Clock {
 }
 
 impl Clock {
-    /// A clock that runs if it ran before.
-    fn new(encoder: &mut Encoder, limit_ms: u32, ran: Lit) -> Self {
+    /// A clock that runs if it ran before, which has a memory, too.
+    fn new(encoder: &mut Encoder, limit_ms: u32, (running, ran): (usize, Lit)) -> Self {
         let unit: u16 = match limit_ms {
             ms if ms.is_multiple_of(100) => 100,
             ms if ms.is_multiple_of(10) => 10,
@@ -127,6 +128,7 @@ impl Clock {
         let (units_memory, units_before) = encoder.monitor(bits, 0);
         let (part_memory, part_before) = encoder.monitor(step.rest.len(), 0);
         let (done_memory, done_before) = encoder.monitor(1, 0);
+        encoder.note_clock([units_memory, part_memory, running], unit);
         let aig = &mut encoder.aig;
         let part_width = step.rest.len() + 1;
         let sum = aig.add(
@@ -363,7 +365,7 @@ fn late(encoder: &mut Encoder, when: Lit, then: Lit, within_ms: u32) -> Lit {
         return encoder.aig.and(begins, !then);
     }
     let (waits, waiting) = encoder.monitor(1, 0);
-    let clock = Clock::new(encoder, within_ms, waiting[0]);
+    let clock = Clock::new(encoder, within_ms, (waits, waiting[0]));
     let aig = &mut encoder.aig;
     let begins = aig.and(begins, !waiting[0]);
     let is_beyond = aig.nonzero(&clock.part);

@@ -580,12 +580,14 @@ mod tests {
         // A proof that rests on what does not hold is not confirmed.
         let mut wrong = proofs[2].clone().unwrap();
         let facts = wrong.facts.clone();
-        let unknown = |latch: &usize| facts.iter().all(|fact| fact.latch != *latch);
+        let is_about =
+            |fact: &Fact, of: usize| matches!(fact, Fact::Bit { latch, .. } if *latch == of);
+        let unknown = |latch: &usize| !facts.iter().any(|fact| is_about(fact, *latch));
         let known_at_first = |latch: &usize| posed.system.latches[*latch].init.is_some();
         let latches = (0..posed.system.latches.len()).filter(|n| unknown(n) && known_at_first(n));
         wrong
             .facts
-            .extend(latches.map(|latch| Fact { latch, like: None }));
+            .extend(latches.map(|latch| Fact::Bit { latch, like: None }));
         assert!(refuted(&wrong).contains(&"bits-step"));
     }
 

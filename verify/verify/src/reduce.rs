@@ -35,6 +35,20 @@ impl Reduced {
         self.nodes[lit.node()].invert_if(lit.is_inverted())
     }
 
+    /// A statement about latches of the original system, before a scan and after it, as literals of this system.
+    pub fn both(
+        &mut self,
+        original: &System,
+        states: &dyn Fn(&mut Aig, &dyn Fn(usize) -> Lit) -> Lit,
+    ) -> [Lit; 2] {
+        let nodes = &self.nodes;
+        let of = |lit: Lit| nodes[lit.node()].invert_if(lit.is_inverted());
+        let aig = &mut self.system.aig;
+        let now = states(aig, &|latch| of(original.latches[latch].now));
+        let next = states(aig, &|latch| of(original.latches[latch].next));
+        [now, next]
+    }
+
     /// The part that the question depends on, and the numbers of its latches in the original system.
     pub fn sliced(&self) -> (System, Vec<usize>) {
         let wanted = self.system.cone(self.system.bad);
@@ -156,6 +170,7 @@ fn substituted(system: &System, classes: &Classes) -> Reduced {
             constraints: all(&system.constraints),
             replay_assumptions: all(&system.replay_assumptions),
             first_replay_assumptions: all(&system.first_replay_assumptions),
+            lags: Vec::new(),
             bad: of(system.bad),
             aig,
         },
@@ -170,9 +185,9 @@ fn facts(classes: &Classes) -> Vec<Fact> {
     let members = classes.iter().enumerate();
     members
         .filter_map(|(latch, class)| match (*class)? {
-            0 => Some(Fact { latch, like: None }),
+            0 => Some(Fact::Bit { latch, like: None }),
             class => match first.get(&class) {
-                Some(&other) => Some(Fact {
+                Some(&other) => Some(Fact::Bit {
                     latch,
                     like: Some(other),
                 }),
@@ -294,6 +309,7 @@ mod tests {
             constraints: Vec::new(),
             replay_assumptions: Vec::new(),
             first_replay_assumptions: Vec::new(),
+            lags: Vec::new(),
             bad: Lit::FALSE,
         };
         (system, now)

@@ -1,6 +1,7 @@
 //! Transition systems: what a scan makes of the state before it and of its inputs, bit by bit.
 
 use crate::aig::{Aig, Lit, Node};
+use crate::lag::Lag;
 use crate::model::{Input, Key};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -34,6 +35,8 @@ pub struct System {
     pub replay_assumptions: Vec<Lit>,
     /// The same, of the first scan.
     pub first_replay_assumptions: Vec<Lit>,
+    /// Relations between clocks and timers that may hold in all runs.
+    pub lags: Vec<Lag>,
     /// Event that must not happen.
     pub bad: Lit,
 }
@@ -166,6 +169,7 @@ impl System {
             constraints: lits(&self.constraints),
             replay_assumptions: lits(&self.replay_assumptions),
             first_replay_assumptions: lits(&self.first_replay_assumptions),
+            lags: self.lags.clone(),
             bad: new(&map, bad).unwrap_or(Lit::FALSE),
             aig,
         }

@@ -29,6 +29,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::aig::{Aig, Lit};
 use crate::bits::{Bits, constant};
+use crate::lag::Lag;
 use crate::system::{Latch, System};
 use rungc_ir::Module;
 use rungc_ir::node::{Action, Arg, ExprId, FunctionKind, LabelId, Stmt};
@@ -227,6 +228,8 @@ pub struct Encoder<'m> {
     watch_limit: u64,
     monitors: u32,
     extra_latches: Vec<(Key, Bits, Bits, Option<i64>)>,
+    /// Clocks of properties: their memory, and their unit in milliseconds.
+    clocks: Vec<([Key; 3], u16)>,
     /// It is on if the PLC was in STOP before the scan; `None`: that is the same as power-on.
     restart: Option<Lit>,
     /// Parts shared with another program.
@@ -330,6 +333,7 @@ impl<'m> Encoder<'m> {
             watch_limit: 0,
             monitors: 0,
             extra_latches: Vec::new(),
+            clocks: Vec::new(),
             restart: None,
             world,
             shared,
@@ -415,6 +419,34 @@ impl<'m> Encoder<'m> {
             None => bits,
         };
         (self.extra_latches.len() - 1, bits)
+    }
+
+    /// Notes a clock: the memory of its units, of milliseconds beyond, and of whether it runs.
+    pub(crate) fn note_clock(&mut self, memory: [usize; 3], unit_ms: u16) {
+        let keys = memory.map(|monitor| self.extra_latches[monitor].0);
+        self.clocks.push((keys, unit_ms));
+    }
+
+    /// Relations between clocks and timers of the same unit that may hold: a clock begins with the coil of a timer, or
+    /// a scan before.
+    fn lags(&self) -> Vec<Lag> {
+        let timers = self.state.keys().filter_map(|key| match *key {
+            Key::Timer(timer, TimerPart::Value) => {
+                Some((timer, self.module.model.timer(timer)?.unit_ms))
+            }
+            _ => None,
+        });
+        let pairs = timers.flat_map(|timer| self.clocks.iter().map(move |clock| (timer, clock)));
+        let alike = pairs.filter(|((_, timer_unit_ms), (_, unit_ms))| timer_unit_ms == unit_ms);
+        let lags = alike.flat_map(|((timer, unit_ms), &(clock, _))| {
+            [0, self.world.scan_ms].map(|most_ms| Lag {
+                clock,
+                timer,
+                unit_ms,
+                most_ms,
+            })
+        });
+        lags.collect()
     }
 
     /// Sets the value of such a memory after the scan.
@@ -572,6 +604,7 @@ impl<'m> Encoder<'m> {
             constraints: Vec::new(),
             replay_assumptions: Vec::new(),
             first_replay_assumptions: Vec::new(),
+            lags: self.lags(),
             bad,
         };
         self.add_to(&mut system, &|_| true, &|key| self.is_free(key));

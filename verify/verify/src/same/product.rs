@@ -216,6 +216,7 @@ impl<'m> Product<'m> {
             constraints: Vec::new(),
             replay_assumptions: Vec::new(),
             first_replay_assumptions: Vec::new(),
+            lags: Vec::new(),
             bad: Lit::FALSE,
         };
         let in_old = |name: Key| self.old.after(name).is_some();
