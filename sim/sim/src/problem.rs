@@ -105,13 +105,17 @@ fn lines(source: &Source, problems: &[Problem]) -> String {
     problems.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// The text of a file.
+/// The text of a file. Its name is the start of paths to files that it names, so it has to be UTF-8, too.
 pub(crate) fn read(path: &Path) -> Result<Source, LoadError> {
     inputs::note(path);
     let io = |error| LoadError::Io {
         path: path.to_path_buf(),
         error,
     };
+    if path.to_str().is_none() {
+        let what = "its name, or that of its folder, is not UTF-8; rename it";
+        return Err(io(Error::new(ErrorKind::InvalidInput, what)));
+    }
     let text = String::from_utf8(std::fs::read(path).map_err(io)?).map_err(|error| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let what = other_kind(&name, error.as_bytes());

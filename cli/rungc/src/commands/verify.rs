@@ -17,6 +17,7 @@ use crate::args::VerifyArgs;
 use crate::output::{file, spare, write_file};
 use crate::report::Reporter;
 use crate::report::junit::{Case, properties};
+use crate::report::location::named;
 use evidence::{Basis, Grounds};
 use rungc_evidence::Evidence;
 use rungc_frontend::Read;
@@ -309,7 +310,7 @@ fn publish(
     if reporter.is_for_people() {
         findings.drawn = draw::networks(&read.program, model, &findings.diagnostics);
     }
-    let file = subject.file.display().to_string();
+    let file = named(&subject.file);
     let cases = results.iter().zip(&evidence.properties);
     let cases = cases.map(|(result, verified)| Case {
         properties: properties(verified),

@@ -1,7 +1,7 @@
 //! Workflow commands of GitHub Actions, which mark places in the files of a change.
 
 use super::Findings;
-use super::location::Location;
+use super::location::{Location, named};
 use anstream::adapter::strip_str;
 use rungc_syntax::Severity;
 use rungc_syntax::text::acts;
@@ -37,7 +37,7 @@ pub fn findings(findings: &Findings) -> String {
 
 /// A command that marks a place in a file, or the file.
 pub fn annotation(level: &str, file: &Path, place: &Location, title: &str, text: &str) -> String {
-    let file = file.to_string_lossy().replace('\\', "/");
+    let file = named(file).replace(std::path::MAIN_SEPARATOR, "/");
     format!(
         "::{level} file={}{},title={}::{}\n",
         property(&file),

@@ -1,7 +1,7 @@
 //! Diagnostics as one JSON object: of one program, or of several in its key `files`.
 
 use super::Findings;
-use super::location::Location;
+use super::location::{Location, named};
 use super::visible::to_json;
 use rungc_analysis::check::ports::Setup;
 use rungc_evidence::Evidence;
@@ -147,7 +147,7 @@ fn proposal(findings: &Findings, d: &Diagnostic) -> Option<Proposal> {
 /// Findings in one file.
 pub fn file(findings: &Findings) -> File {
     File {
-        file: findings.path.display().to_string(),
+        file: named(findings.path),
         model: findings.size.map(|size| size.model),
         steps: findings.size.map(|size| size.steps),
         errors: findings.count(Severity::Error),

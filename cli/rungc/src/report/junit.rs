@@ -1,7 +1,7 @@
 //! JUnit XML: suites of cases that passed, failed or could not be decided.
 
 use super::Findings;
-use super::location::Location;
+use super::location::{Location, named};
 use super::visible::visible_xml;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
@@ -51,7 +51,7 @@ pub struct Problem {
 
 /// The errors of a program as cases that failed; without errors, one case that passed.
 pub fn of_errors(findings: &Findings) -> Suite {
-    let path = findings.path.display().to_string();
+    let path = named(findings.path);
     let errors = findings.diagnostics.iter();
     let errors = errors.filter(|d| d.severity == Severity::Error);
     let case = |name: String, problem| Case {

@@ -94,6 +94,23 @@ impl Location {
     }
 }
 
+/// Name of a file in documents for tools, which are UTF-8: other bytes are escaped (`\xB5`), so that names stay apart.
+pub fn named(path: &Path) -> String {
+    let chunks = path.as_os_str().as_encoded_bytes().utf8_chunks();
+    chunks.fold(String::new(), |mut name, chunk| {
+        name.push_str(chunk.valid());
+        for byte in chunk.invalid() {
+            name.push_str(&format!("\\x{byte:02X}"));
+        }
+        name
+    })
+}
+
+/// Serializes a path as [`named`] does; serde itself rejects other bytes.
+pub fn as_named<S: serde::Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&named(path))
+}
+
 /// The instruction that holds an offset, or on whose line it lies.
 pub fn instr_at(program: &Program, offset: u32) -> Option<usize> {
     let next = program

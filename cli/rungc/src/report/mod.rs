@@ -321,7 +321,7 @@ impl<'a> Reporter<'a> {
         self.totals.add(findings.totals());
         let evidence = findings.verification.as_ref();
         self.junit.push(junit::Suite {
-            name: findings.path.display().to_string(),
+            name: location::named(findings.path),
             properties: evidence.map_or_else(Vec::new, junit::grounds),
             cases,
         });

@@ -237,3 +237,41 @@ fn labels_are_one_error() {
     let folder = folder(&[("labels.il", list.as_bytes())]);
     insta::assert_snapshot!(shown(folder.path(), &["check", "labels.il"]));
 }
+
+/// In documents for tools, which are UTF-8, names of files that are not stay apart; a test file with such a name, whose
+/// paths would lead elsewhere, is rejected in each of them.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_that_are_not_utf8_are_escaped() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let folder = folder(&[]);
+    let names: [&[u8]; 2] = [b"\xB5\xE7.il", b"\xBB\xFA.il"];
+    for name in names.map(OsStr::from_bytes) {
+        std::fs::write(folder.path().join(name), "LD X0\nOUT X1\nEND\n").unwrap();
+    }
+    for format in ["json", "junit", "github"] {
+        let output = rungc(folder.path(), &["check", ".", "--format", format]);
+        let document = text(&output.stdout);
+        for name in [r"\xB5\xE7.il", r"\xBB\xFA.il"] {
+            let name = if format == "json" {
+                name.replace('\\', r"\\")
+            } else {
+                name.to_owned()
+            };
+            assert!(document.contains(&name), "{format}: {document}");
+        }
+    }
+    let below = folder.path().join(OsStr::from_bytes(b"\xB5"));
+    std::fs::create_dir(&below).unwrap();
+    let test = "topic = \"t\"\nmodel = \"fx3u\"\n[[case]]\nname = \"a\"\nprogram = \"a.il\"\n[[case.step]]\n";
+    std::fs::write(below.join("t.plctest.toml"), test).unwrap();
+    std::fs::write(below.join("a.il"), "LD X0\nOUT Y0\nEND\n").unwrap();
+    for format in ["human", "json", "junit", "sarif", "github"] {
+        let output = rungc(folder.path(), &["test", ".", "--format", format]);
+        assert_eq!(output.status.code(), Some(2), "{format}");
+        let messages = text(&output.stdout) + &text(&output.stderr);
+        assert!(messages.contains("is not UTF-8; rename it"), "{messages}");
+    }
+    assert_eq!(std::fs::read_dir(&below).unwrap().count(), 2);
+}

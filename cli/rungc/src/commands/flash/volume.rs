@@ -7,7 +7,7 @@ use rungc_firmware::flash::Payload;
 use rungc_firmware::flash::uf2::{self, INFO, RP2040_BOARD};
 use rungc_syntax::codes;
 use std::fs::{self, File};
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -19,6 +19,9 @@ const AUTO: &str = "auto";
 const FLASH: u32 = 0x1000_0000;
 const FLASH_END: u64 = 0x1100_0000;
 const SECTOR: u32 = 4096;
+
+/// Size of what is written at once, in bytes: between two blocks an interruption is noticed.
+const BLOCK: usize = 512;
 
 /// Interval of checks for a restarted board.
 const PERIOD: Duration = Duration::from_millis(100);
@@ -53,23 +56,31 @@ fn copy(args: &FlashArgs, volume: &Path, payload: &Payload, cx: Context) -> Done
     check(&volume)?;
     cx.note(&format!("       Found an RP2040 at {}", volume.display()));
     confirm(&loss(payload), args.yes)?;
-    interruption::note_for_a_while();
+    interruption::note();
     let name = args.file.file_stem().unwrap_or("image".as_ref());
     let path = volume.join(name).with_extension("uf2");
     let file = uf2::write(payload);
     let late = |why: String| Stop::Failed(&codes::FLASHING_FAILED, why);
-    let mut copy = File::create_new(&path).map_err(|e| late(format!("{}: {e}", path.display())))?;
-    copy.write_all(&file)
-        .map_err(|e| late(format!("{}: {e}", path.display())))?;
+    let again = |why: &str| late(format!("{why}; unplug it and begin again"));
+    let why = |error: io::Error| format!("{}: {error}", path.display());
+    let mut copy = File::create_new(&path).map_err(|error| late(why(error)))?;
+    for block in file.chunks(BLOCK) {
+        if interruption::is_requested() {
+            return Err(again("interrupted: the image is incomplete"));
+        }
+        copy.write_all(block).map_err(|error| late(why(error)))?;
+    }
     // The board restarts as soon as it has the last block: then nothing is there to say that all is written.
     let written = copy.sync_all();
     drop(copy);
     if !is_gone(&volume, args.wait()) {
-        let why = match written {
+        return Err(again(&match written {
+            Err(error) => why(error),
+            Ok(()) if interruption::is_requested() => {
+                "interrupted before the board has restarted with the image".to_string()
+            }
             Ok(()) => "the board has not restarted, so it has not taken the image".to_string(),
-            Err(error) => format!("{}: {error}", path.display()),
-        };
-        return Err(late(format!("{why}; unplug it and begin again")));
+        }));
     }
     cx.note(&format!(
         "     Flashed {}: {} bytes at 0x{:08X}; the board has restarted with it",
@@ -90,11 +101,11 @@ fn loss(payload: &Payload) -> String {
     )
 }
 
-/// Returns true if the volume vanishes before long.
+/// Returns true if the volume vanishes before long, and before an interruption.
 fn is_gone(volume: &Path, wait: Duration) -> bool {
     let begin = Instant::now();
     while volume.join(INFO).exists() {
-        if begin.elapsed() >= wait {
+        if begin.elapsed() >= wait || interruption::is_requested() {
             return false;
         }
         thread::sleep(PERIOD);

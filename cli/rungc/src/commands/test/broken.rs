@@ -6,7 +6,7 @@ use crate::args::{TestArgs, TestFormat};
 use crate::commands::Failure;
 use crate::output;
 use crate::report::junit::{Case, Problem, Properties, Suite, render};
-use crate::report::location::Location;
+use crate::report::location::{Location, as_named, named};
 use crate::report::{github, sarif};
 use rungc_sim::LoadError;
 use rungc_syntax::diag::counted;
@@ -22,6 +22,7 @@ const KIND: &str = "test-file";
 /// A mistake, or a file that cannot be read.
 #[derive(Serialize)]
 pub struct Mistake {
+    #[serde(serialize_with = "as_named")]
     file: PathBuf,
     #[serde(skip_serializing_if = "Option::is_none")]
     line: Option<u32>,
@@ -75,7 +76,7 @@ fn junit(mistakes: &[Mistake]) -> io::Result<String> {
     let of_one_file = mistakes.chunk_by(|a, b| a.file == b.file);
     let suites: Vec<_> = of_one_file
         .map(|mistakes| Suite {
-            name: mistakes[0].file.display().to_string(),
+            name: named(&mistakes[0].file),
             properties: Properties::new(),
             cases: mistakes.iter().map(case).collect(),
         })
@@ -84,7 +85,7 @@ fn junit(mistakes: &[Mistake]) -> io::Result<String> {
 }
 
 fn case(mistake: &Mistake) -> Case {
-    let class = mistake.file.display().to_string();
+    let class = named(&mistake.file);
     let place = mistake
         .line
         .map_or(class.clone(), |line| format!("{class}:{line}"));

@@ -1,7 +1,8 @@
 //! `rungc test --coverage` and `--mutants`.
 
 use super::super::{
-    Context, Failure, Outcome, Result, counted, eprint_line, interruption, print_text, put,
+    Context, Failure, Outcome, Result, check_name, counted, eprint_line, interruption, print_text,
+    put,
 };
 use super::Chosen;
 use super::files::is_in;
@@ -68,7 +69,7 @@ pub(super) fn run(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Co
     let shown = match args.coverage {
         Some(CoverageFormat::Html) => html::page(&programs),
         Some(CoverageFormat::Lcov) => {
-            lines(&programs);
+            check_lines(&programs)?;
             lcov::lcov(&programs)
         }
         Some(CoverageFormat::Text) | None => text::text(&programs),
@@ -88,13 +89,19 @@ pub(super) fn run(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Co
 }
 
 /// Says which programs have no lines that a tracefile could name.
-fn lines(programs: &[Covered]) {
+///
+/// # Errors
+/// A program whose file it cannot name.
+fn check_lines(programs: &[Covered]) -> std::result::Result<(), Failure> {
     for program in programs.iter().filter(|program| !lcov::has_lines(program)) {
         eprint_line(&format!(
             "rungc: {} is left out: lcov needs a program whose file is a list; use --coverage html or text",
             program.name
         ));
     }
+    let named = programs.iter().filter(|program| lcov::has_lines(program));
+    let mut paths = named.filter_map(|program| program.path.as_deref());
+    paths.try_for_each(|path| check_name(path, "a tracefile"))
 }
 
 /// Keeps one part of the mutants. Which one a mutant is in depends on what it changes, not on where it is: most stay

@@ -1,12 +1,12 @@
 //! Results of tests, human-readable and for tools.
 
 use super::broken::Mistake;
+use crate::report::location::named;
 use crate::report::to_json;
 use rungc_sim::plctest::{Failure, Outcome, Report, Suite, Value};
 use rungc_syntax::diag::counted;
 use serde::Serialize;
 use std::io;
-use std::path::Path;
 use std::time::Duration;
 
 /// Cases that ran, and their results.
@@ -85,7 +85,7 @@ struct Why<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     line: Option<u32>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    program: Option<&'a Path>,
+    program: Option<String>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     values: Vec<Differs<'a>>,
 }
@@ -169,7 +169,7 @@ fn why(failure: &Failure) -> Why<'_> {
         message: message(failure),
         step: step.filter(|step| *step > 0),
         line,
-        program,
+        program: program.map(named),
         values: values
             .iter()
             .map(|(name, expected, actual)| Differs {

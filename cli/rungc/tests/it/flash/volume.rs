@@ -117,3 +117,39 @@ fn a_board_that_does_not_restart_has_not_taken_the_image() {
     assert_eq!(code(&output), 1);
     insta::assert_snapshot!("volume_stays", says(&board, &output));
 }
+
+/// Ctrl-C while the board is awaited says what has become of the image.
+#[cfg(unix)]
+#[test]
+fn an_interruption_says_what_it_leaves() {
+    use crate::common::soon;
+    use std::process::{Command, Stdio};
+    let board = rig(INFO);
+    let flashing = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args([
+            "flash", "p.uf2", "--volume", "RPI-RP2", "--wait", "600", "--yes",
+        ])
+        .current_dir(board.path())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let copy = board.path().join("RPI-RP2/p.uf2");
+    soon("the image is copied", || {
+        fs::metadata(&copy).is_ok_and(|file| file.len() == 4 * 512)
+    });
+    let pid = flashing.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-TERM", &pid])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let output = flashing.wait_with_output().unwrap();
+    assert_eq!(code(&output), 130);
+    let messages = says(&board, &output);
+    assert!(
+        messages.contains("interrupted before the board has restarted"),
+        "{messages}"
+    );
+}
