@@ -11,6 +11,14 @@ enum {
     PHASE_BEGINS = 3 /* it is to begin; its operands may keep it from that */
 };
 
+/* What an instruction does in a scan. */
+typedef enum turn {
+    TURN_REST,    /* nothing */
+    TURN_START,   /* it begins */
+    TURN_SENDS,   /* it sends */
+    TURN_RELEASED /* it sent, and its drive has gone off */
+} turn;
+
 /* Registers of HM: places among those of an axis, and the pair with the pulses of Y000. */
 enum { AXIS_POSITION = 18, AXIS_INCREMENT = 22, D_OUTPUT_PULSES = 80 };
 
@@ -300,7 +308,8 @@ uint32_t rungc_speed_of(const rungc_job *job, uint32_t hz)
     return 1000u * ((hz < job->family->highest_hz) ? hz : job->family->highest_hz);
 }
 
-rungc_fault rungc_take_turn_resting(rungc_job *job, rungc_turn *turn)
+/* What an instruction does in this scan, which itself says when it is done. */
+static rungc_fault take_turn_resting(rungc_job *job, turn *taken)
 {
     rungc_map *const map = job->call.map;
     const bool drive = job->call.site.drive;
@@ -309,12 +318,12 @@ rungc_fault rungc_take_turn_resting(rungc_job *job, rungc_turn *turn)
     const bool restarts = restart && (job->kept[RUNGC_KEPT_RESTART] == 0);
     const bool mine = job->axis->owner == job->call.site.slot;
 
-    *turn = RUNGC_TURN_REST;
+    *taken = TURN_REST;
     job->kept[RUNGC_KEPT_DRIVE] = drive ? 1 : 0;
     job->kept[RUNGC_KEPT_RESTART] = restart ? 1 : 0;
     if (!drive) {
         if (was_driven && mine) {
-            *turn = RUNGC_TURN_RELEASED;
+            *taken = TURN_RELEASED;
         }
         return RUNGC_OK;
     }
@@ -329,10 +338,10 @@ rungc_fault rungc_take_turn_resting(rungc_job *job, rungc_turn *turn)
             return job->family->conflict;
         }
         job->kept[RUNGC_KEPT_PHASE] = PHASE_BEGINS;
-        *turn = RUNGC_TURN_START;
+        *taken = TURN_START;
     } else if (job->kept[RUNGC_KEPT_PHASE] == PHASE_SENDS) {
         if (mine) {
-            *turn = RUNGC_TURN_SENDS;
+            *taken = TURN_SENDS;
         } else {
             job->kept[RUNGC_KEPT_PHASE] = PHASE_IDLE;
         }
@@ -347,21 +356,22 @@ static bool is_at_limit(const rungc_job *job, bool reverse)
     return rungc_has_on(job, job->wiring->limits[reverse ? 1 : 0]);
 }
 
-rungc_fault rungc_take_turn(rungc_job *job, rungc_turn *turn)
+/* The same of one that is done when its train is. */
+static rungc_fault take_turn(rungc_job *job, turn *taken)
 {
-    const rungc_fault fault = rungc_take_turn_resting(job, turn);
+    const rungc_fault fault = take_turn_resting(job, taken);
     rungc_generator *const generator = &job->axis->generator;
 
-    if ((fault != RUNGC_OK) || (*turn != RUNGC_TURN_SENDS)) {
+    if ((fault != RUNGC_OK) || (*taken != TURN_SENDS)) {
         return fault;
     }
     if (rungc_generator_is_complete(generator)) {
         rungc_finish(job);
-        *turn = RUNGC_TURN_REST;
+        *taken = TURN_REST;
     } else if (is_at_limit(job, generator->reverse)) {
         rungc_generator_stop(generator);
         rungc_fail(job);
-        *turn = RUNGC_TURN_REST;
+        *taken = TURN_REST;
     } else {
         /* it sends */
     }
@@ -399,7 +409,8 @@ void rungc_send_train_anyway(rungc_job *job, const rungc_train *train, uint16_t 
     rungc_show_pin(job->axis);
 }
 
-void rungc_show(rungc_job *job)
+/* Shows in the special relays how far the instruction is. */
+static void show(rungc_job *job)
 {
     rungc_map *const map = job->call.map;
     const rungc_site site = job->call.site;
@@ -433,6 +444,66 @@ void rungc_show(rungc_job *job)
         rungc_set_relay(map, job->wiring->driven, false);
         rungc_set_relay(map, job->wiring->aborted, false);
     }
+}
+
+rungc_fault rungc_take_course(rungc_job *job, const rungc_operand operands[], const rungc_course *course)
+{
+    turn taken = TURN_REST;
+    rungc_fault fault = course->ends_itself ? take_turn_resting(job, &taken) : take_turn(job, &taken);
+
+    if (fault != RUNGC_OK) {
+        return fault;
+    }
+    switch (taken) {
+    case TURN_START:
+        fault = course->begin(job, operands);
+        break;
+    case TURN_SENDS:
+        fault = course->follow(job, operands);
+        break;
+    case TURN_RELEASED:
+        fault = course->release(job, operands);
+        break;
+    default:
+        break;
+    }
+    if (fault == RUNGC_OK) {
+        show(job);
+    }
+    return fault;
+}
+
+rungc_fault rungc_come_down(rungc_job *job, const rungc_operand operands[])
+{
+    (void)operands;
+    rungc_generator_stop(&job->axis->generator);
+    return RUNGC_OK;
+}
+
+rungc_fault rungc_halt(rungc_job *job, const rungc_operand operands[])
+{
+    (void)operands;
+    rungc_generator_halt(&job->axis->generator);
+    return RUNGC_OK;
+}
+
+rungc_fault rungc_read_two(const rungc_call *call, const rungc_operand operands[], uint32_t *first, uint32_t *second)
+{
+    int32_t a = 0;
+    int32_t b = 0;
+    rungc_fault fault = rungc_read(call, operands[0], &a);
+
+    if (fault == RUNGC_OK) {
+        fault = rungc_read(call, operands[1], &b);
+    }
+    if ((fault == RUNGC_OK) && ((a < 0) || (b < 0))) {
+        fault = RUNGC_BAD_VALUE;
+    }
+    if (fault == RUNGC_OK) {
+        *first = (uint32_t)a;
+        *second = (uint32_t)b;
+    }
+    return fault;
 }
 
 void rungc_change_total(rungc_job *job, uint32_t total)

@@ -13,14 +13,6 @@
 /* Lowest speed of a train with ramps, in Hz, and the limits of the times of ramps, in milliseconds. */
 enum { RUNGC_LOWEST_HZ = 10, RUNGC_SHORTEST_RAMP_MS = 50, RUNGC_LONGEST_RAMP_MS = 5000 };
 
-/* What an instruction does in a scan. */
-typedef enum rungc_turn {
-    RUNGC_TURN_REST,    /* nothing */
-    RUNGC_TURN_START,   /* it begins */
-    RUNGC_TURN_SENDS,   /* it sends */
-    RUNGC_TURN_RELEASED /* it sent, and its drive has gone off */
-} rungc_turn;
-
 /* Words that an instruction keeps. The others are its own. */
 enum {
     RUNGC_KEPT_DRIVE = 0,   /* it was driven */
@@ -47,9 +39,23 @@ typedef rungc_fault rungc_pulse_work(rungc_job *job, const rungc_operand operand
 /* Runs an instruction whose output is the operand of this number, while no interrupt sends pulses, and shows its error. */
 void rungc_run_pulses(rungc_map *map, rungc_site site, const rungc_operand operands[], unsigned output, rungc_pulse_work *work);
 
-/* What the instruction does in this scan. It is done when its train is; or, `resting`, when it says so itself. */
-rungc_fault rungc_take_turn(rungc_job *job, rungc_turn *turn);
-rungc_fault rungc_take_turn_resting(rungc_job *job, rungc_turn *turn);
+/* What an instruction does from its start to its end. */
+typedef struct rungc_course {
+    rungc_pulse_work *begin;   /* it begins */
+    rungc_pulse_work *follow;  /* a scan in which it sends */
+    rungc_pulse_work *release; /* it sent, and its drive has gone off */
+    bool ends_itself;          /* it says itself when it is done; otherwise it is when its train is, and a limit switch ends it */
+} rungc_course;
+
+/* What an instruction does in this scan; then the special relays show how far it is, unless it has failed. */
+rungc_fault rungc_take_course(rungc_job *job, const rungc_operand operands[], const rungc_course *course);
+
+/* Releases: the pulses come down with their ramp, or stop at once. */
+rungc_fault rungc_come_down(rungc_job *job, const rungc_operand operands[]);
+rungc_fault rungc_halt(rungc_job *job, const rungc_operand operands[]);
+
+/* The first two operands, which are not negative. An operand that does not exist is reported before one that is negative. */
+rungc_fault rungc_read_two(const rungc_call *call, const rungc_operand operands[], uint32_t *first, uint32_t *second);
 
 /* Sends a train, whose pulses are counted in the pair of registers `counter`, unless a limit switch forbids it; or whatever they say. */
 void rungc_send_train(rungc_job *job, const rungc_train *train, uint16_t counter);
@@ -58,9 +64,6 @@ void rungc_send_train_anyway(rungc_job *job, const rungc_train *train, uint16_t 
 /* The instruction is done; it has come to an end before its time. */
 void rungc_finish(rungc_job *job);
 void rungc_fail(rungc_job *job);
-
-/* Shows in the special relays how far the instruction is. */
-void rungc_show(rungc_job *job);
 
 /* Returns true if the model has a special relay, and it is on. */
 bool rungc_has_on(const rungc_job *job, uint16_t relay);

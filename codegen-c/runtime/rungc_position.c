@@ -50,52 +50,64 @@ static rungc_fault begin_move(rungc_job *job, const rungc_operand operands[], in
     return RUNGC_OK;
 }
 
-/* A move comes down when its drive goes off. While the relay for that is on, S1 may change until it comes down. */
-static rungc_fault move(rungc_job *job, const rungc_operand operands[], bool absolute)
+/* While the relay for that is on, the distance may change until the move comes down. */
+static void change_distance(rungc_job *job, int32_t distance)
 {
-    rungc_generator *const generator = &job->axis->generator;
-    rungc_turn turn = RUNGC_TURN_REST;
-    int32_t target = 0;
-    rungc_fault fault = rungc_take_turn(job, &turn);
+    if ((distance < 0) == job->axis->generator.reverse) {
+        rungc_change_total(job, magnitude(distance));
+    }
+}
 
-    if ((fault == RUNGC_OK) && ((turn == RUNGC_TURN_START) || (turn == RUNGC_TURN_SENDS))) {
-        fault = rungc_read(&job->call, operands[0], &target);
-    }
-    if (fault != RUNGC_OK) {
-        return fault;
-    }
-    switch (turn) {
-    case RUNGC_TURN_START:
-        fault = begin_move(job, operands, absolute ? plc_sat_sub32(target, position(job)) : target);
-        break;
-    case RUNGC_TURN_SENDS: {
-        const int32_t distance = absolute ? plc_sat_sub32(target, job->kept[KEPT_BEGAN]) : target;
+static rungc_fault begin_drvi(rungc_job *job, const rungc_operand operands[])
+{
+    int32_t distance = 0;
+    const rungc_fault fault = rungc_read(&job->call, operands[0], &distance);
 
-        if ((distance < 0) == generator->reverse) {
-            rungc_change_total(job, magnitude(distance));
-        }
-        break;
-    }
-    case RUNGC_TURN_RELEASED:
-        rungc_generator_stop(generator);
-        break;
-    default:
-        break;
-    }
+    return (fault != RUNGC_OK) ? fault : begin_move(job, operands, distance);
+}
+
+static rungc_fault follow_drvi(rungc_job *job, const rungc_operand operands[])
+{
+    int32_t distance = 0;
+    const rungc_fault fault = rungc_read(&job->call, operands[0], &distance);
+
     if (fault == RUNGC_OK) {
-        rungc_show(job);
+        change_distance(job, distance);
     }
     return fault;
 }
 
 static rungc_fault drvi(rungc_job *job, const rungc_operand operands[])
 {
-    return move(job, operands, false);
+    static const rungc_course course = {begin_drvi, follow_drvi, rungc_come_down, false};
+
+    return rungc_take_course(job, operands, &course);
+}
+
+static rungc_fault begin_drva(rungc_job *job, const rungc_operand operands[])
+{
+    int32_t target = 0;
+    const rungc_fault fault = rungc_read(&job->call, operands[0], &target);
+
+    return (fault != RUNGC_OK) ? fault : begin_move(job, operands, plc_sat_sub32(target, position(job)));
+}
+
+static rungc_fault follow_drva(rungc_job *job, const rungc_operand operands[])
+{
+    int32_t target = 0;
+    const rungc_fault fault = rungc_read(&job->call, operands[0], &target);
+
+    if (fault == RUNGC_OK) {
+        change_distance(job, plc_sat_sub32(target, job->kept[KEPT_BEGAN]));
+    }
+    return fault;
 }
 
 static rungc_fault drva(rungc_job *job, const rungc_operand operands[])
 {
-    return move(job, operands, true);
+    static const rungc_course course = {begin_drva, follow_drva, rungc_come_down, false};
+
+    return rungc_take_course(job, operands, &course);
 }
 
 void rungc_drvi(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d1, rungc_operand d2)
@@ -179,12 +191,13 @@ static rungc_fault begin_dvit(rungc_job *job, const rungc_operand operands[])
 }
 
 /* At the rising edge of the signal it continues by its pulses. */
-static rungc_fault await_signal(rungc_job *job)
+static rungc_fault follow_dvit(rungc_job *job, const rungc_operand operands[])
 {
     const bool was_on = job->kept[KEPT_SIGNAL] != 0;
     bool on = false;
     const rungc_fault fault = read_signal(job, &on);
 
+    (void)operands;
     if (fault != RUNGC_OK) {
         return fault;
     }
@@ -198,29 +211,9 @@ static rungc_fault await_signal(rungc_job *job)
 
 static rungc_fault dvit(rungc_job *job, const rungc_operand operands[])
 {
-    rungc_turn turn = RUNGC_TURN_REST;
-    rungc_fault fault = rungc_take_turn(job, &turn);
+    static const rungc_course course = {begin_dvit, follow_dvit, rungc_come_down, false};
 
-    if (fault != RUNGC_OK) {
-        return fault;
-    }
-    switch (turn) {
-    case RUNGC_TURN_START:
-        fault = begin_dvit(job, operands);
-        break;
-    case RUNGC_TURN_SENDS:
-        fault = await_signal(job);
-        break;
-    case RUNGC_TURN_RELEASED:
-        rungc_generator_stop(&job->axis->generator);
-        break;
-    default:
-        break;
-    }
-    if (fault == RUNGC_OK) {
-        rungc_show(job);
-    }
-    return fault;
+    return rungc_take_course(job, operands, &course);
 }
 
 void rungc_dvit(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d1, rungc_operand d2)
@@ -289,35 +282,16 @@ static rungc_fault follow_plsv(rungc_job *job, const rungc_operand operands[])
     return RUNGC_OK;
 }
 
+static rungc_fault release_plsv(rungc_job *job, const rungc_operand operands[])
+{
+    return has_ramps(job) ? rungc_come_down(job, operands) : rungc_halt(job, operands);
+}
+
 static rungc_fault plsv(rungc_job *job, const rungc_operand operands[])
 {
-    rungc_turn turn = RUNGC_TURN_REST;
-    rungc_fault fault = rungc_take_turn(job, &turn);
+    static const rungc_course course = {begin_plsv, follow_plsv, release_plsv, false};
 
-    if (fault != RUNGC_OK) {
-        return fault;
-    }
-    switch (turn) {
-    case RUNGC_TURN_START:
-        fault = begin_plsv(job, operands);
-        break;
-    case RUNGC_TURN_SENDS:
-        fault = follow_plsv(job, operands);
-        break;
-    case RUNGC_TURN_RELEASED:
-        if (has_ramps(job)) {
-            rungc_generator_stop(&job->axis->generator);
-        } else {
-            rungc_generator_halt(&job->axis->generator);
-        }
-        break;
-    default:
-        break;
-    }
-    if (fault == RUNGC_OK) {
-        rungc_show(job);
-    }
-    return fault;
+    return rungc_take_course(job, operands, &course);
 }
 
 void rungc_plsv(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d1, rungc_operand d2)

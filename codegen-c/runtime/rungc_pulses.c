@@ -5,26 +5,6 @@
  */
 #include "rungc_outputs.h"
 
-/* The first two operands, which are not negative. An operand that does not exist is reported before one that is negative. */
-static rungc_fault read_two(const rungc_call *call, const rungc_operand operands[], uint32_t *first, uint32_t *second)
-{
-    int32_t a = 0;
-    int32_t b = 0;
-    rungc_fault fault = rungc_read(call, operands[0], &a);
-
-    if (fault == RUNGC_OK) {
-        fault = rungc_read(call, operands[1], &b);
-    }
-    if ((fault == RUNGC_OK) && ((a < 0) || (b < 0))) {
-        fault = RUNGC_BAD_VALUE;
-    }
-    if (fault == RUNGC_OK) {
-        *first = (uint32_t)a;
-        *second = (uint32_t)b;
-    }
-    return fault;
-}
-
 /* ---- PLSY S1 S2 D: S2 pulses of S1 Hz, or with S2 = 0 pulses without end ---------------------------------------------------------- */
 
 /* A speed that is at least the model's lowest; 0 sends nothing. */
@@ -33,44 +13,53 @@ static uint32_t raised(const rungc_job *job, uint32_t hz)
     return ((hz > 0u) && (hz < job->family->lowest_hz)) ? job->family->lowest_hz : hz;
 }
 
-/* S1 may change at any time, S2 while the relay for that is on; the pulses stop at once with the drive. */
-static rungc_fault plsy(rungc_job *job, const rungc_operand operands[])
+/* The speed and the number of pulses. */
+static rungc_fault read_plsy(const rungc_job *job, const rungc_operand operands[], uint32_t *speed, uint32_t *count)
 {
-    rungc_generator *const generator = &job->axis->generator;
-    rungc_turn turn = RUNGC_TURN_REST;
     uint32_t hz = 0;
+    const rungc_fault fault = rungc_read_two(&job->call, operands, &hz, count);
+
+    *speed = rungc_speed_of(job, raised(job, hz));
+    return fault;
+}
+
+static rungc_fault begin_plsy(rungc_job *job, const rungc_operand operands[])
+{
+    uint32_t speed = 0;
     uint32_t count = 0;
-    rungc_fault fault = rungc_take_turn(job, &turn);
+    const rungc_fault fault = read_plsy(job, operands, &speed, &count);
 
-    if ((fault == RUNGC_OK) && ((turn == RUNGC_TURN_START) || (turn == RUNGC_TURN_SENDS))) {
-        fault = read_two(&job->call, operands, &hz, &count);
-    }
-    if (fault != RUNGC_OK) {
-        return fault;
-    }
-    const uint32_t speed = rungc_speed_of(job, raised(job, hz));
-
-    switch (turn) {
-    case RUNGC_TURN_START: {
+    if (fault == RUNGC_OK) {
         const rungc_train train = rungc_steady_train(speed, count);
 
         rungc_send_train(job, &train, job->wiring->pulses);
-        break;
     }
-    case RUNGC_TURN_SENDS:
-        rungc_generator_set_speed(generator, speed);
-        if ((count > 0u) && rungc_has_on(job, job->wiring->changes)) {
-            rungc_generator_set_total(generator, count);
-        }
-        break;
-    case RUNGC_TURN_RELEASED:
-        rungc_generator_halt(generator);
-        break;
-    default:
-        break;
+    return fault;
+}
+
+/* S1 may change at any time, S2 while the relay for that is on. */
+static rungc_fault follow_plsy(rungc_job *job, const rungc_operand operands[])
+{
+    rungc_generator *const generator = &job->axis->generator;
+    uint32_t speed = 0;
+    uint32_t count = 0;
+    const rungc_fault fault = read_plsy(job, operands, &speed, &count);
+
+    if (fault != RUNGC_OK) {
+        return fault;
     }
-    rungc_show(job);
+    rungc_generator_set_speed(generator, speed);
+    if ((count > 0u) && rungc_has_on(job, job->wiring->changes)) {
+        rungc_generator_set_total(generator, count);
+    }
     return RUNGC_OK;
+}
+
+static rungc_fault plsy(rungc_job *job, const rungc_operand operands[])
+{
+    static const rungc_course course = {begin_plsy, follow_plsy, rungc_halt, false};
+
+    return rungc_take_course(job, operands, &course);
 }
 
 void rungc_plsy(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d)
@@ -89,7 +78,7 @@ static rungc_fault begin_plsr(rungc_job *job, const rungc_operand operands[])
     uint32_t hz = 0;
     uint32_t count = 0;
     int32_t ms = 0;
-    rungc_fault fault = read_two(&job->call, operands, &hz, &count);
+    rungc_fault fault = rungc_read_two(&job->call, operands, &hz, &count);
 
     if ((fault == RUNGC_OK) && (count < job->family->fewest_with_ramps)) {
         fault = RUNGC_BAD_VALUE;
@@ -114,36 +103,23 @@ static rungc_fault begin_plsr(rungc_job *job, const rungc_operand operands[])
     return RUNGC_OK;
 }
 
-/* The pulses come down when the drive goes off. S2 may change until they come down. */
-static rungc_fault plsr(rungc_job *job, const rungc_operand operands[])
+/* S2 may change until the pulses come down. */
+static rungc_fault follow_plsr(rungc_job *job, const rungc_operand operands[])
 {
-    rungc_turn turn = RUNGC_TURN_REST;
     int32_t count = 0;
-    rungc_fault fault = rungc_take_turn(job, &turn);
+    const rungc_fault fault = rungc_read(&job->call, operands[1], &count);
 
-    if (fault != RUNGC_OK) {
-        return fault;
-    }
-    switch (turn) {
-    case RUNGC_TURN_START:
-        fault = begin_plsr(job, operands);
-        break;
-    case RUNGC_TURN_SENDS:
-        fault = rungc_read(&job->call, operands[1], &count);
-        if (fault == RUNGC_OK) {
-            rungc_change_total(job, (count > 0) ? (uint32_t)count : 0u);
-        }
-        break;
-    case RUNGC_TURN_RELEASED:
-        rungc_generator_stop(&job->axis->generator);
-        break;
-    default:
-        break;
-    }
     if (fault == RUNGC_OK) {
-        rungc_show(job);
+        rungc_change_total(job, (count > 0) ? (uint32_t)count : 0u);
     }
     return fault;
+}
+
+static rungc_fault plsr(rungc_job *job, const rungc_operand operands[])
+{
+    static const rungc_course course = {begin_plsr, follow_plsr, rungc_come_down, false};
+
+    return rungc_take_course(job, operands, &course);
 }
 
 void rungc_plsr(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand s3, rungc_operand d)
@@ -171,36 +147,43 @@ static uint32_t pwm_unit_us(const rungc_job *job)
     }
 }
 
-/* Both may change at any time. */
-static rungc_fault pwm(rungc_job *job, const rungc_operand operands[])
+/* The signal that S1 and S2 say; both may change at any time. */
+static rungc_fault run_pwm(rungc_job *job, const rungc_operand operands[], bool begins)
 {
-    rungc_turn turn = RUNGC_TURN_REST;
     uint32_t width = 0;
     uint32_t period = 0;
-    rungc_fault fault = rungc_take_turn_resting(job, &turn);
+    const rungc_fault fault = rungc_read_two(&job->call, operands, &width, &period);
 
-    if ((fault == RUNGC_OK) && ((turn == RUNGC_TURN_START) || (turn == RUNGC_TURN_SENDS))) {
-        fault = read_two(&job->call, operands, &width, &period);
-        if ((fault == RUNGC_OK) && ((width > period) || (period == 0u))) {
-            fault = RUNGC_BAD_VALUE;
-        }
-        if (fault == RUNGC_OK) {
-            if (turn == RUNGC_TURN_START) {
-                const rungc_train nothing = rungc_steady_train(0, 0);
-
-                rungc_send_train(job, &nothing, 0);
-            }
-            rungc_generator_modulate(&job->axis->generator, width, period, pwm_unit_us(job));
-        }
-    }
     if (fault != RUNGC_OK) {
         return fault;
     }
-    if (turn == RUNGC_TURN_RELEASED) {
-        rungc_generator_halt(&job->axis->generator);
+    if ((width > period) || (period == 0u)) {
+        return RUNGC_BAD_VALUE;
     }
-    rungc_show(job);
+    if (begins) {
+        const rungc_train nothing = rungc_steady_train(0, 0);
+
+        rungc_send_train(job, &nothing, 0);
+    }
+    rungc_generator_modulate(&job->axis->generator, width, period, pwm_unit_us(job));
     return RUNGC_OK;
+}
+
+static rungc_fault begin_pwm(rungc_job *job, const rungc_operand operands[])
+{
+    return run_pwm(job, operands, true);
+}
+
+static rungc_fault follow_pwm(rungc_job *job, const rungc_operand operands[])
+{
+    return run_pwm(job, operands, false);
+}
+
+static rungc_fault pwm(rungc_job *job, const rungc_operand operands[])
+{
+    static const rungc_course course = {begin_pwm, follow_pwm, rungc_halt, true};
+
+    return rungc_take_course(job, operands, &course);
 }
 
 void rungc_pwm(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d)

@@ -8,33 +8,13 @@ enum { KEPT_STAGE = 4 };
 
 /* ---- ZRN S1 S2 S3 D runs back at S1 Hz until S3 is on, then at S2 Hz until it is off: there is the origin ------------------------- */
 
-/* The two speeds, which are not negative. */
-static rungc_fault read_speeds(const rungc_call *call, const rungc_operand operands[], uint32_t *fast, uint32_t *creep)
-{
-    int32_t first = 0;
-    int32_t second = 0;
-    rungc_fault fault = rungc_read(call, operands[0], &first);
-
-    if (fault == RUNGC_OK) {
-        fault = rungc_read(call, operands[1], &second);
-    }
-    if ((fault == RUNGC_OK) && ((first < 0) || (second < 0))) {
-        fault = RUNGC_BAD_VALUE;
-    }
-    if (fault == RUNGC_OK) {
-        *fast = (uint32_t)first;
-        *creep = (uint32_t)second;
-    }
-    return fault;
-}
-
 /* A scan in which it begins or sends. */
 static rungc_fault run_zrn(rungc_job *job, const rungc_operand operands[], bool starts)
 {
     uint32_t fast = 0;
     uint32_t creep = 0;
     bool near = false;
-    rungc_fault fault = read_speeds(&job->call, operands, &fast, &creep);
+    rungc_fault fault = rungc_read_two(&job->call, operands, &fast, &creep);
 
     if (fault == RUNGC_OK) {
         fault = rungc_read_bit(&job->call, operands[2], 0, &near);
@@ -61,24 +41,22 @@ static rungc_fault run_zrn(rungc_job *job, const rungc_operand operands[], bool 
     return RUNGC_OK;
 }
 
+static rungc_fault begin_zrn(rungc_job *job, const rungc_operand operands[])
+{
+    return run_zrn(job, operands, true);
+}
+
+static rungc_fault follow_zrn(rungc_job *job, const rungc_operand operands[])
+{
+    return run_zrn(job, operands, false);
+}
+
 static rungc_fault zrn(rungc_job *job, const rungc_operand operands[])
 {
-    rungc_turn turn = RUNGC_TURN_REST;
-    rungc_fault fault;
+    static const rungc_course course = {begin_zrn, follow_zrn, rungc_come_down, false};
 
     rungc_end_clear_signal(job, &job->wiring->zrn_clear);
-    fault = rungc_take_turn(job, &turn);
-    if ((fault == RUNGC_OK) && ((turn == RUNGC_TURN_START) || (turn == RUNGC_TURN_SENDS))) {
-        fault = run_zrn(job, operands, turn == RUNGC_TURN_START);
-    }
-    if (fault != RUNGC_OK) {
-        return fault;
-    }
-    if (turn == RUNGC_TURN_RELEASED) {
-        rungc_generator_stop(&job->axis->generator);
-    }
-    rungc_show(job);
-    return RUNGC_OK;
+    return rungc_take_course(job, operands, &course);
 }
 
 void rungc_zrn(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand s3, rungc_operand d)
@@ -332,31 +310,10 @@ static rungc_fault follow_dszr(rungc_job *job, const rungc_operand operands[])
 
 static rungc_fault dszr(rungc_job *job, const rungc_operand operands[])
 {
-    rungc_turn turn = RUNGC_TURN_REST;
-    rungc_fault fault;
+    static const rungc_course course = {begin_dszr, follow_dszr, rungc_come_down, true};
 
     rungc_end_clear_signal(job, &job->wiring->home.clear);
-    fault = rungc_take_turn_resting(job, &turn);
-    if (fault != RUNGC_OK) {
-        return fault;
-    }
-    switch (turn) {
-    case RUNGC_TURN_START:
-        fault = begin_dszr(job, operands);
-        break;
-    case RUNGC_TURN_SENDS:
-        fault = follow_dszr(job, operands);
-        break;
-    case RUNGC_TURN_RELEASED:
-        rungc_generator_stop(&job->axis->generator);
-        break;
-    default:
-        break;
-    }
-    if (fault == RUNGC_OK) {
-        rungc_show(job);
-    }
-    return fault;
+    return rungc_take_course(job, operands, &course);
 }
 
 void rungc_dszr(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d1, rungc_operand d2)
