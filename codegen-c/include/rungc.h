@@ -302,7 +302,9 @@ static inline int32_t plc_float_bits(float value)
 /* Bit 0 to 15 of a word. */
 static inline bool plc_bit(int16_t word, unsigned bit)
 {
-    return (((uint16_t)word >> bit) & 1u) != 0u;
+    const uint32_t bits = (uint16_t)word;
+
+    return ((bits >> bit) & 1u) != 0u;
 }
 
 /* The word with bit 0 to 15 set to `on`. */
@@ -367,13 +369,19 @@ static inline int16_t plc_mul16(int16_t a, int16_t b)
 /* Truncates towards zero; b is not 0. */
 static inline int16_t plc_div16(int16_t a, int16_t b)
 {
-    return (b == -1) ? plc_sub16(0, a) : (int16_t)(a / b);
+    if (b == -1) {
+        return plc_sub16(0, a);
+    }
+    return (int16_t)(a / b);
 }
 
 /* Has the sign of a; b is not 0. */
 static inline int16_t plc_rem16(int16_t a, int16_t b)
 {
-    return (b == -1) ? 0 : (int16_t)(a % b);
+    if (b == -1) {
+        return 0;
+    }
+    return (int16_t)(a % b);
 }
 
 static inline int32_t plc_add32(int32_t a, int32_t b)
