@@ -7,6 +7,7 @@
 
 pub mod book;
 mod fitting;
+pub mod motions;
 pub mod operands;
 pub mod part;
 pub mod random;

@@ -4,6 +4,7 @@ mod flow;
 
 use crate::operands::{BUFFER_WORDS, Candidate, accepted, first_counter32, special_register};
 use crate::rng::Rng;
+use crate::{motions, sequences, stations};
 use flow::Subroutine;
 use rungc_models::{Model, ModelId};
 use rungc_syntax::DeviceClass;
@@ -26,6 +27,16 @@ struct Writer<'c> {
     /// Depth of loops, and of MC.
     loops: u32,
     masters: u32,
+}
+
+/// A program of one of all kinds for a model, mostly made of these instructions.
+pub fn any(seed: u64, model: ModelId, candidates: &[Candidate]) -> String {
+    match seed % 9 {
+        0 => stations::program(seed),
+        1 => sequences::program(seed),
+        2 => motions::program(seed, model),
+        _ => program(seed, model, candidates, 8 + (seed % 20) as u32),
+    }
 }
 
 /// A program of about `rungs` rungs for a model, made of these instructions.

@@ -11,7 +11,7 @@
 use rungc_catalogue::Lower;
 use rungc_golden::operands::{BUFFER_WORDS, candidates};
 use rungc_golden::part::Part;
-use rungc_golden::random::{self, program};
+use rungc_golden::random;
 use rungc_golden::rng::Rng;
 use rungc_golden::rows::{self, Occurring};
 use rungc_golden::sequences;
@@ -115,12 +115,7 @@ fn samples(seed: u64, count: u64) -> Vec<Sample> {
         // All of a program follows from its seed, so that one program can be run again alone.
         let seed = seed.wrapping_add(i);
         let (model, pool) = &pools[(seed % pools.len() as u64) as usize];
-        let text = match seed % 9 {
-            0 => stations::program(seed),
-            1 => sequences::program(seed),
-            _ => program(seed, *model, pool, 8 + (seed % 20) as u32),
-        };
-        match sample(text, seed, *model) {
+        match sample(random::any(seed, *model, pool), seed, *model) {
             Ok(sample) => samples.push(sample),
             Err(why) => rejected.push(why),
         }
