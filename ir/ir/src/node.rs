@@ -56,7 +56,8 @@
 //! `Begin`. Nothing else runs meanwhile. What happens outside, an edge of an input or a period of time, sets flags or
 //! runs a function [`FunctionKind::InputEdge`] between two scans; an interrupt routine runs where the program calls
 //! [`FunctionKind::TakeInterrupts`], at the start of networks for the most part, and as a whole. So a statement never
-//! sees a device change under it, and all engines interrupt a program at the same places.
+//! sees a device change under it, and all engines interrupt a program at the same places. A call whose effect nothing
+//! can notice up to the next one is left out.
 //!
 //! # The watchdog
 //!

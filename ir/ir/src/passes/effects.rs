@@ -1,6 +1,5 @@
 //! Reads of expressions and writes of statements, and whether a read may be moved after a write.
 
-use super::fold::Arena;
 use crate::node::{
     Action, Count, Counter16Coil, Counter32Coil, Expr, ExprId, IndexedCoil, Place, Stmt, TimerCoil,
 };
@@ -35,22 +34,22 @@ pub(super) enum Writes {
 
 impl Reads {
     /// Reads of an expression.
-    pub(super) fn of(arena: &Arena, id: ExprId) -> Self {
+    pub(super) fn of(exprs: &TiSlice<ExprId, Expr>, model: &Model, id: ExprId) -> Self {
         let mut reads = Reads::default();
-        reads.collect(arena, id);
+        reads.collect(exprs, model, id);
         reads
     }
 
-    fn collect(&mut self, arena: &Arena, id: ExprId) {
-        let expr = arena.get(id);
+    fn collect(&mut self, exprs: &TiSlice<ExprId, Expr>, model: &Model, id: ExprId) {
+        let expr = exprs[id];
         for operand in operands(&expr) {
-            self.collect(arena, operand);
+            self.collect(exprs, model, operand);
         }
         if let Expr::Read(access) = expr {
             let class = access.place.class;
-            let (first, last) = run(&arena.exprs, access.place, access.extent());
+            let (first, last) = run(exprs, access.place, access.extent());
             self.devices.push((class, first, last));
-            self.index |= arena.model.has_alias(class, first, last);
+            self.index |= model.has_alias(class, first, last);
         }
         self.private |= matches!(expr, Expr::Flag(_) | Expr::Cell(_) | Expr::Entry(..));
     }

@@ -103,7 +103,7 @@ impl Temps {
         self.pending.push(Pending {
             temp,
             value,
-            reads: Reads::of(arena, value),
+            reads: Reads::of(&arena.exprs, arena.model, value),
             left: uses,
         });
         let excess = self.pending.len().saturating_sub(MAX_PENDING);
@@ -134,7 +134,7 @@ impl Temps {
         self.available.push(Available {
             temp: arena.add(Expr::Temp(temp)),
             value,
-            reads: Reads::of(arena, value),
+            reads: Reads::of(&arena.exprs, arena.model, value),
         });
         vec![(temp, value)]
     }

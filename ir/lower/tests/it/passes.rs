@@ -2,8 +2,11 @@
 
 use rungc_ir::Module;
 use rungc_ir::dump::dump;
-use rungc_ir::node::{Access, Action, Branch, Expr, ExprId, LabelId, Place, Stmt, TempId};
+use rungc_ir::node::{
+    Access, Action, Branch, Expr, ExprId, FunctionKind, LabelId, Place, Stmt, TempId,
+};
 use rungc_ir::validate::validate;
+use rungc_ir::walk::statements;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
 use rungc_syntax::DeviceClass;
@@ -91,6 +94,75 @@ fn branches_with_one_condition_are_joined() {
         main_of("LD X0\nSET Y0\nRST Y1\nEND\n"),
         "if X000 {\nY000 := on\nY001 := off\n}"
     );
+}
+
+#[test]
+fn rungs_of_one_condition_are_one_branch() {
+    let first = "LD X0\nAND M0\nSET Y0\n";
+    for (next, expected) in [
+        (
+            "LD X0\nAND M0\nRST Y1\n",
+            "if (X000 & M0) {\nY000 := on\nY001 := off\n}",
+        ),
+        (
+            "LD X0\nAND M0\nINV\nSET Y2\nLD X0\nAND M0\nSET Y3\n",
+            "if (X000 & M0) {\nY000 := on\n}\nelse {\nY002 := on\n}\nif (X000 & M0) {\nY003 := on\n}",
+        ),
+    ] {
+        assert_eq!(main_of(&format!("{first}{next}END\n")), expected);
+    }
+    // What changes the condition, or may, ends the branch; so does a statement between two of them.
+    for between in ["RST M0\n", "MOV D0 K2M0Z0\n", "SET Y1\nLD X1\nOUT Y2\n"] {
+        let text = format!("{first}{between}LD X0\nAND M0\nRST Y1\nEND\n");
+        let twice = main_of(&text);
+        assert_eq!(twice.matches("if (X000 & M0)").count(), 2, "{twice}");
+    }
+    // Nothing changes what holds for a whole scan.
+    let once = main_of("LD M8002\nCALL P1\nLD M8002\nRST Y1\nFEND\nP1\nLD X0\nOUT M1\nSRET\nEND\n");
+    assert_eq!(once.matches("if first_scan").count(), 1, "{once}");
+}
+
+/// Calls of the function that takes interrupts, by the networks of `Main` that they are in.
+fn taken_at(text: &str) -> Vec<u32> {
+    let module = module(text, true);
+    let mut functions = module.functions.iter();
+    let take = functions.position(|f| f.kind == FunctionKind::TakeInterrupts);
+    let take = take.map_or(u32::MAX, |take| take as u32);
+    let (mut step, mut found) = (0, Vec::new());
+    statements(&module.functions[1].body, &mut |stmt| match stmt {
+        Stmt::Network(network) => step = module.networks[*network as usize].step,
+        Stmt::CallSub(function) if *function == take => found.push(step),
+        _ => {}
+    });
+    found
+}
+
+#[test]
+fn pulses_are_caught_where_they_are_noticed() {
+    let quiet: String = (0..100)
+        .map(|n| format!("LD X{:o}\nOUT M{n}\n", n % 8 + 8))
+        .collect();
+    let text = format!("EI\n{quiet}LD M8170\nOUT Y0\nLD X1\nRST M8170\n{quiet}END\n");
+    // In front of the contact, and of RST.
+    assert_eq!(taken_at(&text), [201, 203]);
+}
+
+#[test]
+fn interrupts_are_taken_where_they_are_noticed_and_once_in_a_while() {
+    let quiet: String = (0..100)
+        .map(|n| format!("LD X{:o}\nOUT M{n}\n", n % 8 + 8))
+        .collect();
+    let text =
+        |rung: &str| format!("EI\n{quiet}{rung}FEND\nI001\nLD M8000\nINC D0\nOUT Y0\nIRET\nEND\n");
+    let without = taken_at(&text(""));
+    // A network has two steps.
+    assert!(without.windows(2).all(|pair| pair[1] - pair[0] <= 102));
+    assert!(without.len() < 6, "{without:?}");
+    let notices = taken_at(&text("LD> D0 K10\nOUT Y1\n"));
+    assert!(notices.contains(&201), "{notices:?}");
+    // A call of the runtime may need the special devices that the routine changes.
+    let calls = taken_at(&text("LD X0\nSORT D100 K4 K2 D200 K1\n"));
+    assert!(calls.contains(&201), "{calls:?}");
 }
 
 #[test]
