@@ -19,22 +19,16 @@ const LONGEST_WAIT: u32 = 100;
 
 /// Leaves out calls that can wait.
 pub(super) fn run(module: &mut Module) {
-    let mut functions = module.functions.iter();
-    let Some(take) = functions.position(|f| f.kind == FunctionKind::TakeInterrupts) else {
+    let position = |kind| module.functions.iter().position(|f| f.kind == kind);
+    let (Some(take), Some(main)) = (
+        position(FunctionKind::TakeInterrupts),
+        position(FunctionKind::Main),
+    ) else {
         return;
     };
     let take = take as u32;
-    let (mut main, mut at_end) = (None, false);
-    for (n, function) in module.functions.iter().enumerate() {
-        match function.kind {
-            FunctionKind::Main => main = Some(n),
-            FunctionKind::End => at_end = function.body.first() == Some(&Stmt::CallSub(take)),
-            _ => {}
-        }
-    }
-    let Some(main) = main else {
-        return;
-    };
+    let end = position(FunctionKind::End).map(|end| &module.functions[end].body);
+    let at_end = end.is_some_and(|end| end.first() == Some(&Stmt::CallSub(take)));
     let mut body = std::mem::take(&mut module.functions[main].body);
     let deferral = Deferral::of(module, take);
     deferral.body(&mut body, 0, at_end.then_some(module.steps));
@@ -97,6 +91,10 @@ impl Uses {
         self.add_private(module, stmt);
     }
 
+    #[expect(
+        clippy::wildcard_enum_match_arm,
+        reason = "others use private memory in expressions only"
+    )]
     fn add_private(&mut self, module: &Module, stmt: &Stmt) {
         match stmt {
             Stmt::Do(Action::SetFlag(flag, _)) => {

@@ -15,6 +15,7 @@ pub(super) fn run(module: &mut Module) {
     }
 }
 
+#[expect(clippy::wildcard_enum_match_arm, reason = "others are not joined")]
 fn joined(module: &Module, body: Body) -> Body {
     let mut out = Body::with_capacity(body.len());
     // The branch that the next one may continue, with only headings of networks after it.
@@ -70,6 +71,7 @@ fn join(module: &Module, out: &mut Body, at: usize, next: Branch) -> Option<Bran
 }
 
 /// Returns true if the condition of a branch is the same after it, whichever way it went.
+#[expect(clippy::wildcard_enum_match_arm, reason = "others have no bodies")]
 fn is_lasting(module: &Module, branch: &Branch) -> bool {
     let reads = Reads::of(&module.exprs, module.model, branch.cond);
     let mut temps = Vec::new();
