@@ -243,6 +243,33 @@ static inline bool plc_active(const bool *states, size_t count, const bool *memo
     return (plc_any(states, count) | plc_any(memories, number)) != 0u;
 }
 
+/* Finds the next of `count` blocks of a step ladder that runs, from number *at on: its state is on, or has gone off since the block
+   ran. Each has two memories: whether a transition left the state, which goes off here, and whether it was on. */
+static inline bool plc_next_step(unsigned *at, bool *states, bool *memories, unsigned count)
+{
+    unsigned i = *at;
+    while (i < count) {
+        bool *const left = &memories[2u * i];
+        bool *const was_on = &memories[(2u * i) + 1u];
+        /* Most are off: four at a time. */
+        if (((count - i) >= 4u) && !plc_active(&states[i], 4, left, 8)) {
+            i += 4u;
+            continue;
+        }
+        if (plc_take(left)) {
+            states[i] = false;
+        }
+        const bool runs = states[i] | *was_on;
+        *was_on = states[i];
+        if (runs) {
+            *at = i;
+            return true;
+        }
+        i++;
+    }
+    return false;
+}
+
 /* ---- Words ---------------------------------------------------------------------------------------------------------- */
 
 /* The low 16 bits as a signed number. */

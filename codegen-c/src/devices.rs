@@ -220,15 +220,15 @@ impl Writer<'_, '_> {
     }
 
     fn put(&mut self, code: &mut Code, what: &'static str, place: &Place, value: ExprId) {
-        let of_iteration = self.access_iteration(code.text(), place);
-        if place.index.is_some() && !of_iteration {
+        let is_found = self.access_by_index(code, place);
+        if place.index.is_some() && !is_found {
             self.helpers.put(what, place.class);
             self.helper_call(code, &format!("put_{what}"), place);
             self.last_argument(code, value);
             return;
         }
         // A device that nothing reads is not stored.
-        if of_iteration || self.fields.access(code.text(), place.class, place.number) {
+        if is_found || self.fields.access(code.text(), place.class, place.number) {
             code.push_str(match (place.class, what) {
                 (DeviceClass::T | DeviceClass::C, "bit") => ".done = ",
                 (DeviceClass::T | DeviceClass::C, _) => ".value = ",

@@ -111,14 +111,7 @@ impl PrintStorage for Storage<'_> {
         };
         out.push_str("plc->");
         field.name(out);
-        let _ = match (field.at(number), field.first) {
-            (At::Field, _) => Ok(()),
-            (At::Column { column, row }, _) => write!(out, "[{column}][{row}]"),
-            // D100[103 - 100] keeps the device's own number in sight.
-            (At::Element(0), _) => write!(out, "[0]"),
-            (At::Element(n), 0) => write!(out, "[{n}]"),
-            (At::Element(_), first) => write!(out, "[{number} - {first}]"),
-        };
+        out.push_str(&field.subscript(number));
         true
     }
 

@@ -201,10 +201,9 @@ impl Printer<'_> {
                 let mut device = String::from("plc->");
                 field.name(&mut device);
                 field.element(&mut device, "n", "");
-                let _ = match first == next {
-                    true => write!(out, "    if (n <= {last}) {{\n        "),
-                    false => write!(out, "    if (n >= {first} && n <= {last}) {{\n        "),
-                };
+                let from = if first == next { 0 } else { first };
+                let condition = within(from, format_args!("n <= {last}"));
+                let _ = write!(out, "    if ({condition}) {{\n        ");
                 let kind = TimerKind {
                     shared: true,
                     ..timers.kind
@@ -228,6 +227,7 @@ impl Printer<'_> {
             "/* Returns true if `count` {c} from number n on exist. */\n\
              static inline bool {name}_has_{c}(int32_t n, int32_t count)\n{{\n    return "
         );
+        // Here the number is one that an index leads to, and may be anything.
         for (i, (first, last)) in self.module.model.runs(class).into_iter().enumerate() {
             let or = if i > 0 { "\n        || " } else { "" };
             let _ = write!(
@@ -373,7 +373,7 @@ impl Printer<'_> {
         for field in arrays {
             let mut name = String::from("plc->");
             field.name(&mut name);
-            let condition = format!("n >= {} && n < {}", field.first, field.end());
+            let condition = within(field.first, format_args!("n < {}", field.end()));
             let _ = write!(out, "    if ({condition}) {{\n        ");
             field.element(&mut name, "n", "");
             line(
@@ -385,6 +385,14 @@ impl Printer<'_> {
             );
             out.push_str("    }\n");
         }
+    }
+}
+
+/// The test that a device's number n, which is at least 0, lies in an array from `first` to an `upper` bound.
+fn within(first: u32, upper: std::fmt::Arguments) -> String {
+    match first {
+        0 => upper.to_string(),
+        first => format!("n >= {first} && {upper}"),
     }
 }
 

@@ -77,8 +77,8 @@ pub struct Options {
     /// Also `NAME_lanes.h` and its functions, which run [`lanes::LANES`] instances at once, of a program that
     /// [`lanes::refusal`] has nothing against.
     pub lanes: bool,
-    /// Other code of the folder calls the runtime library: it is linked even if the runtime in C has what the program
-    /// calls.
+    /// Other code of the folder calls the runtime library, which is linked even if the runtime in C has what the
+    /// program calls.
     pub library: bool,
     /// Also `misra.txt`, the deviations from MISRA C:2012 with their reasons, as suppressions for cppcheck.
     pub misra: bool,

@@ -52,6 +52,13 @@ impl Page {
         self.fresh = true;
     }
 
+    /// Begins a block with this head, which ends in its brace, and adds a comment beside it.
+    pub(crate) fn open_beside(&mut self, head: &str, beside: &str) {
+        self.commented(&Code::from(head), Some(beside));
+        self.indent += STEP;
+        self.fresh = true;
+    }
+
     /// Ends a block.
     pub fn close(&mut self) {
         self.indent -= STEP;

@@ -2,8 +2,9 @@
 
 use crate::code::Code;
 use crate::expr::Around;
-use crate::fields::PrintStorage;
+use crate::fields::{PrintField, PrintStorage};
 use crate::writer::Writer;
+use rungc_emit::bounds;
 use rungc_ir::node::{Access, AccessKind, Expr, Place};
 use rungc_models::runs::is_counter32;
 use rungc_syntax::DeviceClass;
@@ -44,11 +45,11 @@ impl Writer<'_, '_> {
         if self.loop_invariant(out.text(), place) {
             return;
         }
-        let of_iteration = self.access_iteration(out.text(), place);
-        if place.index.is_some() && !of_iteration {
+        let is_found = self.access_by_index(out, place);
+        if place.index.is_some() && !is_found {
             return self.indexed_call(out, "bit", place);
         }
-        if !of_iteration && !self.fields.access(out.text(), place.class, place.number) {
+        if !is_found && !self.fields.access(out.text(), place.class, place.number) {
             out.push_str("false");
         } else if matches!(place.class, DeviceClass::T | DeviceClass::C) {
             out.push_str(".done");
@@ -66,12 +67,42 @@ impl Writer<'_, '_> {
         }
     }
 
+    /// Writes the expression of a device of the current iteration of a loop, or that an index leads to in an array
+    /// known to hold it; false for any other.
+    pub(crate) fn access_by_index(&mut self, out: &mut Code, place: &Place) -> bool {
+        if self.access_iteration(out.text(), place) {
+            return true;
+        }
+        let fields = self.fields;
+        let (Some(index), Some((field, more))) =
+            (place.index, bounds::array(self.module, fields, place))
+        else {
+            return false;
+        };
+        out.push_str("plc->");
+        field.name(out.text());
+        out.push_str("[");
+        match more {
+            0 => self.expr(out, index, Around::Exact),
+            1.. => {
+                let _ = write!(out.text(), "{more} + ");
+                self.expr(out, index, Around::Operand("+"));
+            }
+            _ => {
+                self.expr(out, index, Around::Operand("-"));
+                let _ = write!(out.text(), " - {}", -more);
+            }
+        }
+        out.push_str("]");
+        true
+    }
+
     fn word(&mut self, out: &mut Code, place: &Place) {
-        let of_iteration = self.access_iteration(out.text(), place);
-        if place.index.is_some() && !of_iteration {
+        let is_found = self.access_by_index(out, place);
+        if place.index.is_some() && !is_found {
             return self.indexed_call(out, "word", place);
         }
-        if !of_iteration && !self.fields.access(out.text(), place.class, place.number) {
+        if !is_found && !self.fields.access(out.text(), place.class, place.number) {
             out.push_str("0");
         } else if matches!(place.class, DeviceClass::T | DeviceClass::C) {
             out.push_str(".value");

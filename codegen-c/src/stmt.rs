@@ -72,8 +72,8 @@ impl Writer<'_, '_> {
         let code = self.code(page, stmt);
         if !code.as_str().is_empty() {
             let beside = comments::written(stmt)
-                .and_then(|(class, number)| self.fields.comment(class, number));
-            page.commented(&code, beside);
+                .and_then(|(class, number)| comments::beside(self.fields, class, number));
+            page.commented(&code, beside.as_deref());
         }
     }
 

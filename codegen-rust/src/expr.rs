@@ -4,6 +4,7 @@ use crate::generate::Generator;
 use crate::storage::{PrintField, PrintStorage, bit_of, word_of};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
+use rungc_emit::bounds;
 use rungc_emit::logic;
 use rungc_emit::storage::Kind;
 use rungc_ir::node::{Access, AccessKind, BinOp, Expr, ExprId, Place, SysValue, TempId, Ty};
@@ -336,10 +337,29 @@ impl Generator<'_> {
             .cell_of_iteration(device, by, &format_ident!("i"))
     }
 
-    /// Location of a bit; `None` if it is not stored, or selected by an index.
-    pub(crate) fn bit_cell(&self, place: Place) -> Option<TokenStream> {
+    /// The device of a loop's current iteration, or one that an index leads to in an array known to hold it.
+    fn cell_by_index(&mut self, place: Place) -> Option<TokenStream> {
+        if let Some(cell) = self.cell_of_iteration(place) {
+            return Some(cell);
+        }
+        let (field, more) = bounds::array(self.module, &self.storage, &place)?;
+        let name = field.name();
+        let index = place.index?;
+        let index = match (more, *self.module.expr(index)) {
+            // It is at least 0.
+            (0, Expr::Widen(word)) => self.typed(word),
+            (0, _) => self.typed(index),
+            (1.., _) => Code::binary("+", literal32(more as i32, false), self.typed(index)),
+            _ => Code::binary("-", self.typed(index), literal32(-more as i32, false)),
+        };
+        let index = index.receiver();
+        Some(quote!(plc.#name[#index as usize]))
+    }
+
+    /// Location of a bit; `None` if it is not stored, or selected by an index that may lead anywhere.
+    pub(crate) fn bit_cell(&mut self, place: Place) -> Option<TokenStream> {
         match place.index {
-            Some(_) => bit_of(place.class, place.number, self.cell_of_iteration(place)?),
+            Some(_) => bit_of(place.class, place.number, self.cell_by_index(place)?),
             None => self.storage.bit(&quote!(plc), place.class, place.number),
         }
     }
@@ -359,10 +379,10 @@ impl Generator<'_> {
         }
     }
 
-    /// Location of a word; `None` if it is not stored, or selected by an index.
-    pub(crate) fn word_cell(&self, place: Place) -> Option<TokenStream> {
+    /// Location of a word; `None` if it is not stored, or selected by an index that may lead anywhere.
+    pub(crate) fn word_cell(&mut self, place: Place) -> Option<TokenStream> {
         match place.index {
-            Some(_) => word_of(place.class, place.number, self.cell_of_iteration(place)?),
+            Some(_) => word_of(place.class, place.number, self.cell_by_index(place)?),
             None => self.storage.word(&quote!(plc), place.class, place.number),
         }
     }

@@ -1,6 +1,6 @@
 //! From tokens to text: prettyplease lays code out, and comments are printed between it.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use rungc_syntax::text::one_line;
 
@@ -38,6 +38,20 @@ enum Piece {
         cond: TokenStream,
         bodies: [Body; 2],
     },
+    Arms {
+        head: TokenStream,
+        arms: Vec<Arm>,
+    },
+}
+
+/// The statements for a number.
+pub struct Arm {
+    /// The number.
+    pub number: Literal,
+    /// Comment beside it.
+    pub beside: String,
+    /// The statements.
+    pub body: Body,
 }
 
 impl Body {
@@ -58,7 +72,8 @@ impl Body {
                 piece @ (Piece::Comment(_)
                 | Piece::Trailing(_)
                 | Piece::Block { .. }
-                | Piece::Branches { .. }) => self.pieces.push(piece),
+                | Piece::Branches { .. }
+                | Piece::Arms { .. }) => self.pieces.push(piece),
             }
         }
     }
@@ -84,6 +99,11 @@ impl Body {
         self.pieces.push(Piece::Branches { cond, bodies });
     }
 
+    /// Adds a choice between numbers with this head, `match at`, which does nothing for others.
+    pub fn arms(&mut self, head: TokenStream, arms: Vec<Arm>) {
+        self.pieces.push(Piece::Arms { head, arms });
+    }
+
     /// Returns true if it is empty.
     pub fn is_empty(&self) -> bool {
         self.pieces.is_empty()
@@ -102,6 +122,13 @@ impl Body {
                 let [then, otherwise] = [&bodies[0], &bodies[1]].map(Body::tokens);
                 let otherwise = (!otherwise.is_empty()).then(|| quote!(else { #otherwise }));
                 quote!(if #cond { #then } #otherwise)
+            }
+            Piece::Arms { head, arms } => {
+                let arms = arms.iter().map(|arm| {
+                    let (number, body) = (&arm.number, arm.body.tokens());
+                    quote!(#number => { #body })
+                });
+                quote!(#head { #(#arms)* _ => {} })
             }
         });
         tokens.collect()
@@ -219,6 +246,18 @@ impl Printer {
                         self.fresh = true;
                         self.body(&bodies[1], depth + 1);
                     }
+                    self.close(depth);
+                }
+                Piece::Arms { head, arms } => {
+                    self.line(&format!("{head} {{"), depth);
+                    for arm in arms {
+                        let beside = clean(&arm.beside);
+                        self.line(&format!("{} => {{ // {beside}", arm.number), depth + 1);
+                        self.fresh = true;
+                        self.body(&arm.body, depth + 2);
+                        self.close(depth + 1);
+                    }
+                    self.line("_ => {}", depth + 1);
                     self.close(depth);
                 }
             }

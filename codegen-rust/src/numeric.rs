@@ -61,14 +61,12 @@ impl Generator<'_> {
     }
 
     /// Location of a bit that is stored as a number.
-    pub(crate) fn numeric_cell(&self, place: Place) -> Option<TokenStream> {
+    pub(crate) fn numeric_cell(&mut self, place: Place) -> Option<TokenStream> {
         if self.is_invariant(place) {
             return Some(invariant_name(place.class, place.number).into_token_stream());
         }
-        let cell = self.bit_cell(place)?;
-        self.storage
-            .is_numeric_bit(place.class, place.number)
-            .then_some(cell)
+        let is_number = self.storage.is_numeric_bit(place.class, place.number);
+        self.bit_cell(place).filter(|_| is_number)
     }
 
     /// A number as a `Bit`: whether it is on.

@@ -48,19 +48,15 @@ impl Generator<'_> {
 
     fn node(&mut self, body: &mut Body, node: &Node) {
         match node {
-            Node::Stmt(Stmt::Network(n)) => {
-                if let Some(network) = self.module.networks.get(*n as usize) {
-                    body.comment(&comments::heading(network, |text| {
-                        one_line(text).trim().to_string()
-                    }));
-                }
-            }
+            Node::Stmt(Stmt::Network(n)) => self.heading(body, *n),
             Node::Stmt(stmt) => {
                 let tokens = self.statement(stmt);
                 let beside = comments::written(stmt).filter(|_| !tokens.is_empty());
                 body.code(tokens);
-                if let Some(text) = beside.and_then(|(class, n)| self.device_comment(class, n)) {
-                    body.trailing_comment(text);
+                let beside = beside
+                    .and_then(|(class, number)| comments::beside(&self.storage, class, number));
+                if let Some(text) = beside {
+                    body.trailing_comment(&text);
                 }
             }
             Node::If {
@@ -85,7 +81,15 @@ impl Generator<'_> {
         }
     }
 
-    fn statement(&mut self, stmt: &Stmt) -> TokenStream {
+    /// The heading of a network.
+    pub(crate) fn heading(&self, body: &mut Body, network: u32) {
+        if let Some(network) = self.module.networks.get(network as usize) {
+            let clean = |text: &str| one_line(text).trim().to_string();
+            body.comment(&comments::heading(network, clean));
+        }
+    }
+
+    pub(crate) fn statement(&mut self, stmt: &Stmt) -> TokenStream {
         match stmt {
             Stmt::Do(action) => self.action(action),
             Stmt::CallSub(root) => self.call_sub(*root as usize),
@@ -108,6 +112,10 @@ impl Generator<'_> {
     fn action(&mut self, action: &Action) -> TokenStream {
         match action {
             Action::Let(temp, value) => self.assign_temp(*temp, *value),
+            Action::Edge(edge) if self.plan.temp(edge.out).used == 0 => {
+                let (memory, input) = (self.edge_memory(edge), self.expr(edge.input));
+                quote!(#memory.0 = #input;)
+            }
             Action::Edge(edge) => {
                 let changed = self.edge(edge);
                 self.bind(edge.out, changed)
@@ -177,6 +185,16 @@ impl Generator<'_> {
 
     /// `plc.edges[0].rising(plc.x2)`.
     fn edge(&mut self, edge: &Edge) -> TokenStream {
+        let method = match edge.kind {
+            EdgeKind::Rising => format_ident!("rising"),
+            EdgeKind::Falling => format_ident!("falling"),
+        };
+        let (memory, input) = (self.edge_memory(edge), self.expr(edge.input));
+        quote!(#memory.#method(#input))
+    }
+
+    /// `plc.edges[0]`.
+    fn edge_memory(&self, edge: &Edge) -> TokenStream {
         let first = Literal::u32_unsuffixed(edge.memory.0);
         let further = match edge.index.map(|index| self.module.expr(index)) {
             Some(&Expr::Stride(_, 1)) => Some(quote!(i)),
@@ -191,12 +209,7 @@ impl Generator<'_> {
             Some(further) => quote!(#first + #further),
             None => quote!(#first),
         };
-        let method = match edge.kind {
-            EdgeKind::Rising => format_ident!("rising"),
-            EdgeKind::Falling => format_ident!("falling"),
-        };
-        let input = self.expr(edge.input);
-        quote!(plc.edges[#i].#method(#input))
+        quote!(plc.edges[#i])
     }
 
     /// A loop over rungs that the program repeats.

@@ -1,6 +1,6 @@
 //! Functions for blocks of devices and for pairs of words, of which most lie in one array.
 
-use super::{Device, Helper, Helpers, Printer, is_bit};
+use super::{Device, Helper, Helpers, Printer, is_bit, within};
 use crate::fields::PrintField;
 use rungc_emit::storage::{Field, Kind};
 use rungc_models::runs::is_special;
@@ -116,10 +116,11 @@ impl Printer<'_> {
              static int16_t *{name}_special_{c}({name}_plc *plc, int32_t n)\n{{\n"
         )?;
         for field in self.reached(class).filter(|field| self.is_aside(field)) {
-            let (first, end, element) = (field.first, field.end(), Self::element(field, "n"));
+            let condition = within(field.first, format_args!("n < {}", field.end()));
+            let element = Self::element(field, "n");
             write!(
                 out,
-                "    if (n >= {first} && n < {end}) {{\n        return &{element};\n    }}\n"
+                "    if ({condition}) {{\n        return &{element};\n    }}\n"
             )?;
         }
         out.push_str("    switch (n) {\n");
@@ -138,10 +139,12 @@ impl Printer<'_> {
              static inline {ty} *{name}_run_{c}({name}_plc *plc, int32_t n, int32_t count)\n{{\n"
         )?;
         for field in self.reached(class) {
-            let (first, end, element) = (field.first, field.end(), Self::element(field, "n"));
+            let upper = format_args!("n <= {} - count", field.end());
+            let condition = within(field.first, upper);
+            let element = Self::element(field, "n");
             write!(
                 out,
-                "    if (n >= {first} && n <= {end} - count) {{\n        return &{element};\n    }}\n"
+                "    if ({condition}) {{\n        return &{element};\n    }}\n"
             )?;
         }
         writeln!(out, "    return NULL;\n}}\n")
@@ -262,12 +265,9 @@ impl Printer<'_> {
                 ".value"
             };
             let [low, high] = ["n", "n + 1"].map(|n| Self::element(field, n) + part);
-            let (first, last) = (field.first, field.last());
+            let condition = within(field.first, format_args!("n < {}", field.last()));
             let made = make(low, high);
-            write!(
-                out,
-                "    if (n >= {first} && n < {last}) {{\n        {made}\n    }}\n"
-            )?;
+            write!(out, "    if ({condition}) {{\n        {made}\n    }}\n")?;
         }
         Ok(())
     }

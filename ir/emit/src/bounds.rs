@@ -1,7 +1,9 @@
 //! Bounds of integer expressions that are plain to see.
 
+use crate::measure;
+use crate::storage::{Field, Storage};
 use rungc_ir::Module;
-use rungc_ir::node::{AccessKind, BinOp, Expr, ExprId, Ty};
+use rungc_ir::node::{AccessKind, BinOp, Expr, ExprId, Place, Ty};
 
 /// The least and the most that a value is.
 pub type Bounds = (i64, i64);
@@ -22,6 +24,26 @@ pub fn fits((low, high): Bounds) -> bool {
 pub fn is_exact(module: &Module, op: BinOp, a: ExprId, b: ExprId) -> bool {
     let (a, b) = (of(module, a, DEPTH), of(module, b, DEPTH));
     result(op, a, b).is_some_and(fits)
+}
+
+/// The array that holds all devices to which the index of a place leads, as its operators show, and the number that is
+/// to be added to the index. A range that only the analysis of the whole program shows is not enough: compilers warn of
+/// what they cannot see.
+pub fn array<'s>(module: &Module, storage: &'s Storage, place: &Place) -> Option<(&'s Field, i64)> {
+    let index = place.index?;
+    let mut below = Vec::new();
+    measure::below(module, index, &mut below);
+    let unseen = |e: &ExprId| matches!(module.expr(*e), Expr::Stride(..) | Expr::Within { .. });
+    if below.iter().any(unseen) {
+        return None;
+    }
+    let (low, high) = of(module, index, DEPTH);
+    let number = i64::from(place.number);
+    let first = u32::try_from(number + low).ok()?;
+    let last = u32::try_from(number + high).ok()?;
+    let field = storage.array(place.class, first, last.checked_sub(first)? + 1)?;
+    let plain = !module.model.has_alias(place.class, first, last);
+    plain.then(|| (field, number - i64::from(field.first)))
 }
 
 /// Bounds of an operator's result, if it has such as these.

@@ -1,9 +1,10 @@
 //! Comments on emitted code.
 
+use crate::storage::{At, Storage};
 use rungc_ir::node::{
     Access, Action, Count, Counter16Coil, Counter32Coil, Network, Stmt, TimerCoil,
 };
-use rungc_syntax::DeviceClass;
+use rungc_syntax::{Device, DeviceClass};
 
 /// The heading of a network. `clean` makes a user's text safe in a comment.
 pub fn heading(network: &Network, clean: impl Fn(&str) -> String) -> String {
@@ -42,5 +43,27 @@ pub fn written(stmt: &Stmt) -> Option<(DeviceClass, u32)> {
             place.index.is_none().then_some((place.class, place.number))
         }
         _ => None,
+    }
+}
+
+/// Comment beside a statement that writes a device: the one on the device, and its name if the statement does not show
+/// that, since the device lies within an array that is named after another one.
+pub fn beside(storage: &Storage, class: DeviceClass, number: u32) -> Option<String> {
+    let slot = storage.slot(class, number);
+    let within = slot.is_some_and(|(field, number)| {
+        field.first > 0 && matches!(field.at(number), At::Element(1..))
+    });
+    match within {
+        true => Some(device(storage, class, number)),
+        false => storage.comment(class, number).map(String::from),
+    }
+}
+
+/// The name of a device, and the comment on it: `S21: fill`.
+pub fn device(storage: &Storage, class: DeviceClass, number: u32) -> String {
+    let name = Device { class, number };
+    match storage.comment(class, number) {
+        Some(comment) => format!("{name}: {comment}"),
+        None => name.to_string(),
     }
 }

@@ -25,6 +25,7 @@ pub mod parts;
 pub mod plan;
 pub mod private;
 pub mod stations;
+pub mod steps;
 pub mod storage;
 pub mod temps;
 pub mod timers;

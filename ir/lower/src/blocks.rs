@@ -11,7 +11,7 @@ use rungc_rt::RtFn;
 use rungc_rt::special::{M_BMOV_REVERSE, M_MEAN_SUM};
 use rungc_syntax::{Device, DeviceClass, Instr, OperandKind};
 
-/// Words that are moved one by one at most.
+/// Words that are moved, and bits that are shifted, one by one at most.
 const WORDS: u32 = 8;
 /// Bits that are written one by one at most.
 const BITS: u32 = 16;
@@ -417,7 +417,7 @@ impl Lowerer<'_> {
     /// SFTR and SFTL: n1 bits move on by n2 places, n2 others enter.
     fn shift_bits(&mut self, right: bool) {
         self.shift(right, |this, from, to, count, backwards| {
-            if count > BITS {
+            if count > WORDS {
                 return this.copy_run(from, to, count);
             }
             for k in 0..count {

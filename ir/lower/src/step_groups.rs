@@ -177,11 +177,9 @@ impl Lowerer<'_> {
 
     /// The test of a block, with new memories.
     fn test_of(&mut self, block: &Block) -> Steps {
-        let memory = EdgeId(self.module.edges);
-        if self.steps.is_left(block.state) {
-            let mark = self.new_edge();
-            self.steps.set_mark(block.state, mark);
-        }
+        // Also a state that nothing leaves has a mark, so that all blocks begin alike.
+        let memory = self.new_edge();
+        self.steps.set_mark(block.state, memory);
         let was_on = self.new_edge();
         self.steps.guards.was_on.insert(block.at, was_on);
         Steps {

@@ -132,7 +132,8 @@ impl Lowerer<'_> {
     /// Turns a state off that a transition left in the scan before. It may have several blocks (a merge of branches has
     /// its own one): the first decides.
     fn leave_if_marked(&mut self, state: u32) {
-        if !self.steps.begun.insert(state) || !self.steps.is_left(state) {
+        let may_be_left = self.steps.is_left(state) || self.steps.marks.contains_key(&state);
+        if !self.steps.begun.insert(state) || !may_be_left {
             return;
         }
         let mark = self.mark(state);

@@ -69,7 +69,7 @@ pub use axis::{
 pub use comm::{Port, Ports, advance as advance_ports, advance_slave};
 pub use compare::CmpOp;
 pub use cx::{Cx, call, conclude, fetch, send};
-pub use edge::{Edge, EdgeKind, any_active};
+pub use edge::{Edge, EdgeKind, any_active, next_step};
 pub use fault::{
     Done, ErrorRules, Fault, LastError, Stop, log_error, relay_in_bcd, report, trip_watchdog,
 };

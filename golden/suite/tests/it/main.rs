@@ -10,6 +10,7 @@ mod corpus;
 mod counters;
 mod differential;
 mod embedded;
+mod emitted_page;
 mod empty_tables;
 mod explore_faults;
 mod failing_constants;

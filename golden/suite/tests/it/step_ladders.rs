@@ -162,9 +162,33 @@ fn networks(files: impl Iterator<Item = (String, String)>, name: &str) -> String
 }
 
 #[test]
-fn emitted_blocks_are_tested_in_groups() {
+fn emitted_blocks_are_cases() {
     let module = module(&sequences_of_eleven(1), ModelId::Fx3u);
     let c = rungc_codegen_c::emit(&module, &rungc_codegen_c::Options::default());
     let c = c.into_iter().map(|f| (f.path, f.contents));
     insta::assert_snapshot!("groups_c", networks(c, "test.c"));
+    let rust = rungc_codegen_rust::emit(&module, &rungc_codegen_rust::Options::default());
+    let rust = rust.into_iter().map(|f| (f.path, f.contents));
+    insta::assert_snapshot!("groups_rust", networks(rust, "src/program.rs"));
+}
+
+/// Blocks that begin alike are cases; one that does not, among its neighbours, is tested with them.
+#[test]
+fn blocks_of_states_in_a_row_are_cases() {
+    let of = |text: &str| {
+        let module = module(text, ModelId::Fx3u);
+        let c = rungc_codegen_c::emit(&module, &rungc_codegen_c::Options::default());
+        let c: String = c.into_iter().map(|file| file.contents).collect();
+        let lines = || c.lines().map(str::trim_start);
+        let cases = lines().filter(|line| line.starts_with("case ")).count();
+        let tests = lines()
+            .filter(|line| line.starts_with("if (plc_active("))
+            .count();
+        (cases, tests)
+    };
+    let text = sequences_of_eleven(1);
+    assert_eq!(of(&text), (11, 0));
+    // A state that nothing leaves is like the others, a gap between the states is not.
+    assert_eq!(of(&text.replace("SET S20\nRET", "SET M0\nRET")), (11, 0));
+    assert_eq!(of(&text.replace("S23", "S33")), (5, 1));
 }
