@@ -35,10 +35,19 @@ fn label(word: &str) -> bool {
     digits.bytes().all(|b| b.is_ascii_digit()) && digits.parse::<u32>().is_ok_and(|n| n != 63)
 }
 
+/// First byte of `；`.
+const WIDE: u8 = 0xEF;
+
 /// A line up to its comment.
 pub(super) fn instruction(line: &str) -> &str {
-    let code = line.find([';', '；']).map_or(line, |at| &line[..at]);
-    code.find("//").map_or(code, |at| &code[..at])
+    let mut bytes = line.bytes().enumerate();
+    let end = bytes.find_map(|(at, byte)| match byte {
+        b';' => Some(at),
+        b'/' if line[at + 1..].starts_with('/') => Some(at),
+        WIDE if line[at..].starts_with('；') => Some(at),
+        _ => None,
+    });
+    end.map_or(line, |at| &line[..at])
 }
 
 /// The places of words.

@@ -169,6 +169,8 @@ struct Code<'a> {
     len: usize,
     /// True if BMOV may go backwards.
     reverses: OnceCell<bool>,
+    /// What the program writes to the devices of its ports.
+    facts: OnceCell<ports::Facts>,
 }
 
 impl<'a> Code<'a> {
@@ -178,12 +180,17 @@ impl<'a> Code<'a> {
             .iter()
             .position(|instr| instr.basic() == Some(Basic::End));
         let len = end.map_or(resolved.instrs.len(), |end| end + 1);
-        let reverses = OnceCell::new();
         Code {
             resolved,
             len,
-            reverses,
+            reverses: OnceCell::new(),
+            facts: OnceCell::new(),
         }
+    }
+
+    /// What the program writes to the devices of its ports.
+    fn facts(&self) -> &ports::Facts {
+        self.facts.get_or_init(|| ports::Facts::new(self))
     }
 
     fn model(&self) -> &'static Model {

@@ -13,6 +13,7 @@ mod roles;
 use super::Code;
 use crate::resolve::Resolved;
 pub use choices::Choices;
+pub(super) use facts::Facts;
 pub(super) use findings::check;
 pub(super) use roles::Roles;
 use rungc_catalogue::Lower;
@@ -78,15 +79,19 @@ impl Setup {
 
 /// The serial ports that a program uses or sets up, in the order of their numbers.
 pub fn setups(resolved: &Resolved) -> Vec<Setup> {
-    let code = Code::new(resolved);
-    let facts = facts::Facts::new(&code);
+    setups_of(&Code::new(resolved))
+}
+
+/// As [`setups`].
+pub(super) fn setups_of(code: &Code) -> Vec<Setup> {
+    let facts = code.facts();
     let used: BTreeSet<_> = (0..code.len)
-        .flat_map(|i| port_of(&code, i, &facts))
+        .flat_map(|i| port_of(code, i, facts))
         .collect();
     let wirings = code.model().ports.all().iter();
     let wirings = wirings.filter(|wiring| wiring.choice != Choice::Can);
     let wirings = wirings.filter(|wiring| used.contains(&wiring.number) || facts.touch(wiring));
-    wirings.map(|wiring| setup(&facts, wiring)).collect()
+    wirings.map(|wiring| setup(facts, wiring)).collect()
 }
 
 /// Set-up of a port according to the facts.

@@ -266,9 +266,7 @@ fn is_register(class: DeviceClass) -> bool {
 fn may_be_written(code: &Code) -> bool {
     let parameters = code.resolved.program.parameters.as_ref();
     parameters.is_some_and(|parameters| !parameters.requests.is_empty())
-        || ports::setups(code.resolved)
-            .iter()
-            .any(ports::Setup::exchanges)
+        || ports::setups_of(code).iter().any(ports::Setup::exchanges)
 }
 
 impl Class {

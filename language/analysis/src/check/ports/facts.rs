@@ -8,7 +8,9 @@ use rungc_models::Model;
 use rungc_rt::comm::{Choice, LineFormat, PortWiring, Protocol};
 use rungc_rt::{Class, FIRST_SPECIAL, Plc, Ports, Register, Relay, RtFn, State, Sys};
 use rungc_syntax::{Device, DeviceClass, Span};
+use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Deref;
 
 /// Programs that reach special registers through an index stay this near, and those that write runs of devices whose
 /// length is not a constant.
@@ -60,7 +62,7 @@ impl Uinit {
 }
 
 /// All that is written.
-pub(super) struct Facts {
+pub(in super::super) struct Facts {
     model: &'static Model,
     /// By the register's or relay's device, in the order of the first scan.
     writes: BTreeMap<Device, Vec<Write>>,
@@ -105,7 +107,7 @@ pub(super) fn m(relay: Relay) -> Device {
 }
 
 impl Facts {
-    pub(super) fn new(code: &Code) -> Self {
+    pub(in super::super) fn new(code: &Code) -> Self {
         let ports = code.model().ports.all().iter();
         let devices = ports.flat_map(PortWiring::sets).flat_map(|set| {
             let registers = set.setup_registers().chain(set.station).map(d);
@@ -121,9 +123,10 @@ impl Facts {
             indexed_relays: BTreeSet::new(),
             uinit: BTreeMap::new(),
         };
-        let first_scan = first_scan(code);
-        for (i, first) in first_scan.iter().enumerate() {
-            facts.note(code, i, first, (&named, &watched));
+        // Most programs set up no port.
+        let first_scan = LazyCell::new(|| first_scan(code));
+        for i in 0..code.len {
+            facts.note(code, i, &first_scan, (&named, &watched));
         }
         let order = |write: &Write| {
             let order = first_scan[write.at].order.clone();
@@ -139,13 +142,13 @@ impl Facts {
         &mut self,
         code: &Code,
         i: usize,
-        first: &First,
+        first_scan: &impl Deref<Target = Vec<First>>,
         (named, near): (&BTreeSet<Device>, &BTreeSet<Device>),
     ) {
         if matches!(code.lower(i), Some(Lower::Call(RtFn::Uinit))) {
             self.note_uinit(code, i);
         }
-        let constants = constants(code, i);
+        let constants = LazyCell::new(|| constants(code, i));
         for access in accesses::of(code.resolved, i).filter(accesses::Access::writes) {
             let Device { class, number } = access.first;
             if access.indexed {
@@ -162,6 +165,7 @@ impl Facts {
                 number: number.saturating_add(further),
             };
             for &device in named.range(access.first..=last) {
+                let first = &first_scan[i];
                 let value = constants.get(&device).copied();
                 self.writes.entry(device).or_default().push(Write {
                     at: i,

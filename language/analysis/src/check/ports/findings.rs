@@ -13,14 +13,14 @@ use std::ops::RangeInclusive;
 
 /// Checks the ports that a program uses or sets up.
 pub(in super::super) fn check(code: &Code, out: &mut Diagnostics) {
-    let facts = Facts::new(code);
+    let facts = code.facts();
     for wiring in code.model().ports.all() {
         if wiring.choice == Choice::Can {
             continue;
         }
         let port = Port {
             code,
-            facts: &facts,
+            facts,
             wiring,
             protocol: facts.protocol(wiring),
         };
@@ -37,9 +37,9 @@ pub(in super::super) fn check(code: &Code, out: &mut Diagnostics) {
             port.table(out);
         }
     }
-    parallel(code, &facts, out);
+    parallel(code, facts, out);
     canlink(code, out);
-    indexed(&facts, out);
+    indexed(facts, out);
 }
 
 /// Set-up registers that only an index reaches.

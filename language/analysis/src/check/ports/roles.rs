@@ -5,29 +5,20 @@ use super::areas::{Area, areas};
 use super::facts::{Facts, RegisterValue, d};
 use rungc_models::special::PortRole;
 use rungc_rt::comm::{PortWiring, Protocol};
-use std::cell::OnceCell;
 
 /// The roles in which a program puts its serial ports.
 pub(in super::super) struct Roles<'a> {
     code: &'a Code<'a>,
-    facts: OnceCell<Facts>,
 }
 
 impl<'a> Roles<'a> {
     pub(in super::super) fn new(code: &'a Code<'a>) -> Self {
-        Roles {
-            code,
-            facts: OnceCell::new(),
-        }
-    }
-
-    fn facts(&self) -> &Facts {
-        self.facts.get_or_init(|| Facts::new(self.code))
+        Roles { code }
     }
 
     /// Relays of the links between PLCs that the program may set up.
     pub(in super::super) fn areas(&self) -> Vec<Area> {
-        areas(self.code.model(), self.facts())
+        areas(self.code.model(), self.code.facts())
     }
 
     /// Returns true or false if a port is certainly in a role, or certainly not; `None` if that depends on what
@@ -36,7 +27,7 @@ impl<'a> Roles<'a> {
         let Some(wiring) = self.code.model().ports.get(role.port) else {
             return Some(false);
         };
-        let facts = self.facts();
+        let facts = self.code.facts();
         if role.by_parameters && !wiring.sets().any(|set| facts.touch(set)) {
             return None;
         }
