@@ -4,6 +4,7 @@ use crate::face::{Face, masters, operand_text};
 use crate::layout::{Cell, Grid, Placed, lay_out};
 use crate::network::{InstrIndex, Network, NetworkBody};
 use rungc_analysis::resolve::Resolved;
+use std::convert::Infallible;
 use std::fmt::Write as _;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
@@ -18,6 +19,29 @@ pub struct Style {
 
 /// Draws networks, one after another, each with its number, counted from 1, its labels and its first step.
 pub fn draw(resolved: &Resolved, networks: &[(usize, &Network)], style: Style) -> String {
+    let mut all = String::new();
+    let drawn: Result<(), Infallible> = draw_parts(resolved, networks, style, |part| {
+        all.push_str(part);
+        Ok(())
+    });
+    match drawn {
+        Ok(()) => all,
+    }
+}
+
+/// Size of the parts of a long drawing in bytes, about.
+const PART: usize = 1 << 16;
+
+/// As [`draw`], in parts of bounded size: the drawing takes many times the memory of its program.
+///
+/// # Errors
+/// The first error of `take`, after which nothing is drawn.
+pub fn draw_parts<E>(
+    resolved: &Resolved,
+    networks: &[(usize, &Network)],
+    style: Style,
+    mut take: impl FnMut(&str) -> Result<(), E>,
+) -> Result<(), E> {
     let page = Page {
         face: Face::of(resolved, networks, style.comments),
         width: style.width,
@@ -28,8 +52,15 @@ pub fn draw(resolved: &Resolved, networks: &[(usize, &Network)], style: Style) -
     let mut out = String::new();
     for (number, network) in networks {
         page.network(*number, network, &mut out);
+        if out.len() >= PART {
+            take(&out)?;
+            out.clear();
+        }
     }
-    out
+    match out.is_empty() {
+        true => Ok(()),
+        false => take(&out),
+    }
 }
 
 /// Draws a network, with `^` beneath the symbol of an instruction.

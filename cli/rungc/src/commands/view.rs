@@ -10,11 +10,10 @@ use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_frontend::Read;
 use rungc_ladder::sfc::Chart;
 use rungc_ladder::svg::Painter;
-use rungc_ladder::text::{Style, draw};
+use rungc_ladder::text::{Style, draw_parts};
 use rungc_ladder::{Ladder, Network, build, html, pdf};
 use rungc_lower::compile;
 use rungc_syntax::{DeviceClass, OperandKind, Span};
-use std::fmt::Write;
 use std::path::Path;
 use terminal_size::{Width, terminal_size};
 
@@ -84,15 +83,13 @@ fn view(
             write_file(&path, &sheet.file(&path)?, args.force)?;
         }
         None => {
-            let mut page = String::new();
             if reporter.many() {
-                _ = writeln!(page, "; {}", findings.name(true));
+                print_text(&format!("; {}\n", findings.name(true)))?;
             }
-            page.push_str(&match &chart {
-                Some(chart) => chart.text(style.width),
-                None => draw(&resolved, &networks, style),
-            });
-            print_text(&page)?;
+            match &chart {
+                Some(chart) => print_text(&chart.text(style.width))?,
+                None => draw_parts(&resolved, &networks, style, print_text)?,
+            }
         }
     }
     Ok(Outcome::of(&findings))
