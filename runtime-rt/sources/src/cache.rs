@@ -2,6 +2,7 @@
 
 use etcetera::BaseStrategy;
 use std::collections::HashSet;
+use std::env;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io;
@@ -24,7 +25,7 @@ const SLOTS: usize = 64;
 /// # Errors
 /// There is no such folder, or it cannot be written.
 pub fn folder() -> io::Result<PathBuf> {
-    let folder = match std::env::var_os(VARIABLE).filter(|named| !named.is_empty()) {
+    let folder = match env::var_os(VARIABLE).filter(|named| !named.is_empty()) {
         Some(named) => PathBuf::from(named),
         None => etcetera::choose_base_strategy()
             .map_err(|error| io::Error::new(io::ErrorKind::NotFound, error))?
@@ -51,7 +52,7 @@ fn of_sources() -> &'static str {
 }
 
 /// A number that distinguishes values, the same in each run.
-pub(crate) fn hash(value: &impl Hash) -> u64 {
+pub fn hash(value: &impl Hash) -> u64 {
     let mut hasher = DefaultHasher::new();
     value.hash(&mut hasher);
     hasher.finish()
@@ -146,6 +147,44 @@ pub fn write_all(folder: &Path, files: &[(String, String)]) -> io::Result<bool> 
     Ok(changed)
 }
 
+/// Number of executables that a folder keeps.
+const EXECUTABLES: usize = 8;
+
+/// The executable that is made of what has this hash: one of the last eight that `build` made for this folder, or what
+/// it makes now, which moves there.
+///
+/// # Errors
+/// Those of `build`, and of a folder that cannot be written.
+pub fn executable<E: From<io::Error>>(
+    folder: &Path,
+    hash: u64,
+    build: impl FnOnce() -> Result<PathBuf, E>,
+) -> Result<PathBuf, E> {
+    let folder = folder.join("executables");
+    let kept = folder.join(format!("{hash:016x}{}", env::consts::EXE_SUFFIX));
+    if !kept.is_file() {
+        let built = build()?;
+        let built = match built.is_file() {
+            true => built,
+            false => built.with_extension(env::consts::EXE_EXTENSION),
+        };
+        fs::create_dir_all(&folder)?;
+        fs::rename(built, &kept)?;
+    }
+    touch(&kept)?;
+    let mut all = Vec::new();
+    for entry in fs::read_dir(&folder)? {
+        let entry = entry?;
+        all.push((entry.metadata()?.modified()?, entry.path()));
+    }
+    all.sort();
+    let more = all.len().saturating_sub(EXECUTABLES);
+    all[..more]
+        .iter()
+        .try_for_each(|(_, path)| fs::remove_file(path))?;
+    Ok(kept)
+}
+
 /// Gives a file the time of now, so that build tools compile it again.
 ///
 /// # Errors
@@ -187,6 +226,33 @@ mod tests {
         assert_eq!(modified(&unchanged), long_ago);
         touch(&unchanged).unwrap();
         assert!(modified(&unchanged) > long_ago);
+    }
+
+    #[test]
+    fn executables_are_built_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = folder.path().join("made");
+        let mut builds = 0;
+        let mut get = |hash: u64| {
+            let kept = executable(folder.path(), hash, || {
+                builds += 1;
+                fs::write(&place, hash.to_string())?;
+                Ok::<_, io::Error>(place.clone())
+            });
+            assert_eq!(fs::read_to_string(kept.unwrap()).unwrap(), hash.to_string());
+            // The times of files need not be finer than this.
+            std::thread::sleep(std::time::Duration::from_millis(20));
+            builds
+        };
+        assert_eq!([get(0), get(1), get(0), get(1)], [1, 2, 2, 2]);
+        for more in 2..9 {
+            get(more);
+        }
+        // Used last of all before the others, and the first of them.
+        assert_eq!(get(1), 9, "eight stay");
+        assert_eq!(get(0), 10, "the one that was used least recently went");
+        let failed = executable(folder.path(), 77, || Err(io::Error::other("no compiler")));
+        assert!(failed.is_err());
     }
 
     #[test]

@@ -224,7 +224,7 @@ fn run_cargo(recipe: &Recipe, sources: &Path, objects: &Path) -> Result<PathBuf,
 }
 
 /// Version output of the compiler; empty if it cannot be called.
-fn toolchain(rustc: &OsStr) -> Vec<u8> {
+pub fn toolchain(rustc: &OsStr) -> Vec<u8> {
     let output = Command::new(rustc).arg("-vV").output();
     output.map(|output| output.stdout).unwrap_or_default()
 }

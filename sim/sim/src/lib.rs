@@ -19,6 +19,7 @@ pub mod record;
 pub mod serve;
 mod setting;
 mod target;
+pub mod threads;
 pub mod wire;
 
 pub use problem::{LoadError, Problem};

@@ -1,10 +1,14 @@
 //! Builds executables from the emitted C and Rust of a batch of programs.
 
 use super::{Engine, Interpreter, Process};
+use crate::threads::Threads;
 use rungc_codegen_c::OutFile;
 use rungc_ir::Module;
 use rungc_runtime_sources::cache;
 use rungc_runtime_sources::library::{self, Optimise, Recipe};
+use std::env;
+use std::ffi::OsString;
+use std::hash::Hash;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -60,22 +64,78 @@ pub enum BuildError {
     },
 }
 
-/// Makes an engine for these programs. Sources and objects go to `folder`, which may be used again: what has not
+/// Programs that are ready to run on an engine, of which there may be several at once.
+#[derive(Clone, Debug)]
+pub struct Ready<'m> {
+    kind: EngineKind,
+    modules: &'m [Module],
+    /// The executable; none for the interpreter.
+    command: PathBuf,
+}
+
+impl<'m> Ready<'m> {
+    /// An engine.
+    pub fn start(&self) -> Box<dyn Engine + 'm> {
+        match self.kind {
+            EngineKind::Interp => Box::new(Interpreter::new(self.modules)),
+            EngineKind::C | EngineKind::Rust => {
+                let command = Command::new(&self.command);
+                Box::new(Process::new(self.kind.name(), command))
+            }
+        }
+    }
+}
+
+/// Makes programs ready for an engine. Sources and objects go to `folder`, which may be used again: what has not
 /// changed is not built again.
+///
+/// # Errors
+/// A file cannot be written, a tool is not there or rejects what was emitted.
+pub fn prepare<'m>(
+    kind: EngineKind,
+    modules: &'m [Module],
+    folder: &Path,
+) -> Result<Ready<'m>, BuildError> {
+    let folder = folder.join(kind.name());
+    let command = match kind {
+        // Nothing will be asked of it: all cases are about programs that do not compile.
+        EngineKind::C | EngineKind::Rust if modules.is_empty() => PathBuf::new(),
+        EngineKind::Interp => PathBuf::new(),
+        EngineKind::C => build_c(modules, &folder)?,
+        EngineKind::Rust => build_rust(modules, &folder)?,
+    };
+    Ok(Ready {
+        kind,
+        modules,
+        command,
+    })
+}
+
+/// As [`prepare`], for one engine.
+///
+/// # Errors
+/// Those of [`prepare`].
 pub fn build<'m>(
     kind: EngineKind,
     modules: &'m [Module],
     folder: &Path,
 ) -> Result<Box<dyn Engine + 'm>, BuildError> {
-    let folder = folder.join(kind.name());
-    let command = match kind {
-        // Nothing will be asked of it: all cases are about programs that do not compile.
-        EngineKind::C | EngineKind::Rust if modules.is_empty() => PathBuf::new(),
-        EngineKind::Interp => return Ok(Box::new(Interpreter::new(modules))),
-        EngineKind::C => build_c(modules, &folder)?,
-        EngineKind::Rust => build_rust(modules, &folder)?,
-    };
-    Ok(Box::new(Process::new(kind.name(), Command::new(command))))
+    Ok(prepare(kind, modules, folder)?.start())
+}
+
+impl From<io::Error> for BuildError {
+    fn from(error: io::Error) -> Self {
+        io_error("the folder of executables", error)
+    }
+}
+
+/// Hash of all that an executable is made of: files, the compiler, its flags.
+fn hash_of(files: &[OutFile], made_by: impl Hash) -> u64 {
+    let files: Vec<_> = files
+        .iter()
+        .map(|file| (&file.path, &file.contents))
+        .collect();
+    cache::hash(&(files, made_by))
 }
 
 pub(super) fn io_error(what: impl std::fmt::Display, error: io::Error) -> BuildError {
@@ -108,21 +168,30 @@ pub(super) fn run(command: &mut Command) -> Result<(), BuildError> {
     })
 }
 
-/// Writes the crate of a batch.
-pub(super) fn write_rust(modules: &[Module], folder: &Path) -> Result<(), BuildError> {
-    let mut files = rungc_codegen_rust::batch(modules).into_iter();
+/// Writes the files of a batch.
+pub(super) fn write_files(files: Vec<OutFile>, folder: &Path) -> Result<(), BuildError> {
+    let mut files = files.into_iter();
     files.try_for_each(|file| write(&folder.join(&file.path), &file.contents))
 }
 
 fn build_rust(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
-    write_rust(modules, folder)?;
-    let target = folder.join("target");
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    run(Command::new(cargo)
-        .args(["build", "--offline", "--quiet", "--target-dir"])
-        .arg(&target)
-        .current_dir(folder))?;
-    Ok(target.join("debug").join("batch"))
+    let files = rungc_codegen_rust::batch(modules);
+    let made_by = (library::toolchain(&rustc()), env::var_os("RUSTFLAGS"));
+    cache::executable(folder, hash_of(&files, made_by), || {
+        write_files(files, folder)?;
+        let target = folder.join("target");
+        let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        run(Command::new(cargo)
+            .args(["build", "--offline", "--quiet", "--target-dir"])
+            .arg(&target)
+            .current_dir(folder))?;
+        Ok(target.join("debug").join("batch"))
+    })
+}
+
+/// The Rust compiler.
+fn rustc() -> OsString {
+    env::var_os("RUSTC").unwrap_or_else(|| "rustc".into())
 }
 
 /// Flags with which emitted C must compile without a warning.
@@ -137,7 +206,7 @@ pub(super) fn runtime(
 ) -> Option<PathBuf> {
     let mut variables = cargo.get_envs();
     let rustc = variables.find_map(|(name, value)| value.filter(|_| name == "RUSTC"));
-    let usual = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let usual = self::rustc();
     let recipe = Recipe {
         cargo,
         rustc: rustc.unwrap_or(&usual),
@@ -151,7 +220,7 @@ pub(super) fn runtime(
 
 /// The runtime for this machine as a static library, from the cache; `None` where it cannot be built or kept.
 pub fn host_runtime() -> Option<PathBuf> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     runtime(&Command::new(cargo), None, Optimise::Speed)
 }
 
@@ -164,13 +233,11 @@ pub(super) fn make_batch(
     files: Vec<OutFile>,
     folder: &Path,
 ) -> Result<PathBuf, BuildError> {
-    for file in files {
-        write(&folder.join(&file.path), &file.contents)?;
-    }
+    write_files(files, folder)?;
     if let Some(runtime) = runtime {
         make.arg(format!("RUNGC_RT={}", runtime.display()));
     }
-    let jobs = std::thread::available_parallelism().map_or(1, usize::from);
+    let jobs = Threads::usual().count();
     run(make
         .arg(format!("-j{jobs}"))
         .arg(format!("CFLAGS={C_FLAGS} {flags}"))
@@ -180,12 +247,16 @@ pub(super) fn make_batch(
 
 fn build_c(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
     let runtime = host_runtime();
-    make_batch(
-        &mut Command::new("make"),
-        "",
-        runtime.as_deref(),
-        rungc_codegen_c::batch(modules),
+    let files = rungc_codegen_c::batch(modules);
+    // The runtime's folder is named after its toolchain.
+    let variables = ["CC", "LDFLAGS", "CARGO"].map(env::var_os);
+    cache::executable(
         folder,
+        hash_of(&files, (&runtime, C_FLAGS, variables)),
+        || {
+            let make = &mut Command::new("make");
+            make_batch(make, "", runtime.as_deref(), files, folder)
+        },
     )
 }
 
@@ -205,7 +276,8 @@ pub fn build_c_with_parts<'m>(
     Ok(Box::new(Process::new(name, Command::new(command))))
 }
 
-/// Builds the executable of a program in a folder, by `cc`: what is emitted with these options, and this `main`.
+/// Builds the executable of a program in a folder, by `cc`: what is emitted with these options, and this `main`. One
+/// that was built there of the same is taken again.
 ///
 /// # Errors
 /// A file that cannot be written, a C compiler that is not there or rejects what was emitted.
@@ -215,17 +287,19 @@ pub fn build_with_main(
     main: &str,
     folder: &Path,
 ) -> Result<PathBuf, BuildError> {
-    let mut command = Command::new("cc");
-    command.args(["-std=c99", "-O2", "-o", "executable", "with_main.c"]);
-    write(&folder.join("with_main.c"), main)?;
-    for file in rungc_codegen_c::emit(module, options) {
-        write(&folder.join(&file.path), &file.contents)?;
-        if file.path.ends_with(".c") {
-            command.arg(&file.path);
-        }
-    }
-    run(command.current_dir(folder))?;
-    Ok(folder.join("executable"))
+    const FLAGS: [&str; 2] = ["-std=c99", "-O2"];
+    let files = rungc_codegen_c::emit(module, options);
+    cache::executable(folder, hash_of(&files, (main, FLAGS)), || {
+        let mut command = Command::new("cc");
+        command.args(FLAGS);
+        command.args(["-o", "executable", "with_main.c"]);
+        write(&folder.join("with_main.c"), main)?;
+        let paths = files.iter().map(|file| &file.path);
+        command.args(paths.filter(|path| path.ends_with(".c")));
+        write_files(files, folder)?;
+        run(command.current_dir(folder))?;
+        Ok(folder.join("executable"))
+    })
 }
 
 /// Emitted C, built by this compiler with these flags in addition to those that it must compile with; where they let

@@ -206,7 +206,7 @@ fn build_c(board: &Board, modules: &[Module], folder: &Path) -> Result<PathBuf, 
 
 fn build_rust(board: &Board, modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
     write_support(folder)?;
-    build::write_rust(modules, folder)?;
+    build::write_files(rungc_codegen_rust::batch(modules), folder)?;
     let target = folder.join("target");
     run(find_cargo(board.target)?
         .args(["rustc", "--quiet", "--lib", "--crate-type", "staticlib"])

@@ -8,7 +8,8 @@ mod piped;
 mod process;
 
 pub use build::{
-    BuildError, EngineKind, build, build_c_with, build_c_with_parts, build_with_main, host_runtime,
+    BuildError, EngineKind, Ready, build, build_c_with, build_c_with_parts, build_with_main,
+    host_runtime, prepare,
 };
 pub use interpreter::{Interpreter, Observers};
 pub use piped::Piped;

@@ -2,6 +2,7 @@
 
 use super::Searched;
 use crate::args::SearchEngine;
+use crate::commands::test::BuildFolder;
 use crate::commands::{Context, Failure};
 use crate::progress;
 use rungc_explore::lanes::build;
@@ -16,7 +17,7 @@ const WORTH_COMPILING: u64 = 1_000_000;
 pub struct Built {
     pub executable: PathBuf,
     /// Folder of the executables, until the search is over.
-    _folder: tempfile::TempDir,
+    _folder: BuildFolder,
 }
 
 impl Searched<'_> {
@@ -38,8 +39,9 @@ impl Searched<'_> {
         if let Some(reason) = refusal(self.task) {
             return without(format!("the program {reason}"));
         }
-        let folder = tempfile::tempdir()?;
-        match progress::spin("building lanes", || build(self.task, folder.path())) {
+        let folder = BuildFolder::take()?;
+        let lanes = folder.path().join("lanes");
+        match progress::spin("building lanes", || build(self.task, &lanes)) {
             Ok(executable) => Ok(Some(Built {
                 executable,
                 _folder: folder,
