@@ -17,6 +17,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches};
 use commands::{Context, Failure, Outcome, Verbosity, interruption};
 use output::OutputPath;
+use rungc_sim::threads::Threads;
 use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -35,7 +36,8 @@ pub fn main() -> ExitCode {
     let cli = Cli::from_arg_matches(&matches)
         .unwrap_or_else(|error| reject(&error.format(&mut Cli::command())));
     let cx = context(&cli);
-    let checked = output::check_arguments(&matches);
+    let threads = Threads::stated().map(drop).map_err(Failure::from);
+    let checked = threads.and_then(|()| output::check_arguments(&matches));
     let result = checked.and_then(|()| match &cli.command {
         Command::Check(args) => commands::check::run(args, cx),
         Command::Build(args) => commands::build::run(args, cx),

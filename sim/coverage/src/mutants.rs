@@ -19,12 +19,11 @@ use rungc_models::Model;
 use rungc_rt::special::M_RUNNING;
 use rungc_sim::engines::Interpreter;
 use rungc_sim::plctest::{Case, Suite, run_steps};
+use rungc_sim::threads::Threads;
 use rungc_syntax::{Device, DeviceClass, Instr, OperandKind, Program};
 use std::collections::BTreeMap;
-use std::ops::Range;
-use std::panic::resume_unwind;
-use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
-use std::thread;
+use std::ops::{ControlFlow, Range};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A change of a program.
 #[derive(Clone, PartialEq, Debug)]
@@ -355,36 +354,26 @@ pub fn run(
     suite: &Suite,
     covered: &Covered,
     mutants: &[Mutant],
-    progress: &(dyn Fn() -> bool + Sync),
+    progress: &dyn Fn() -> bool,
 ) -> Vec<Fate> {
     let court = Court::new(suite, covered);
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mut program = covered.program.clone();
-        let mut fates = Vec::new();
-        loop {
-            let at = next.fetch_add(1, Ordering::Relaxed);
-            let Some(mutant) = mutants.get(at).filter(|_| progress()) else {
-                return fates;
-            };
-            program.instrs[mutant.range()].clone_from_slice(&mutant.changed);
-            fates.push((at, court.fate(mutant, &program)));
-            let old = &covered.program.instrs[mutant.range()];
-            program.instrs[mutant.range()].clone_from_slice(old);
-        }
+    let judge = |program: &mut Program, mutant: &Mutant| {
+        program.instrs[mutant.range()].clone_from_slice(&mutant.changed);
+        let fate = court.fate(mutant, program);
+        let old = &covered.program.instrs[mutant.range()];
+        program.instrs[mutant.range()].clone_from_slice(old);
+        fate
     };
-    let threads = thread::available_parallelism().map_or(1, usize::from);
-    let mut fates: Vec<(usize, Fate)> = thread::scope(|scope| {
-        // The present thread is one of them: where there are no others, as on wasm32, it does all.
-        let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
-        let mut done = work();
-        for other in others {
-            done.extend(other.join().unwrap_or_else(|panic| resume_unwind(panic)));
+    let mut fates = Vec::with_capacity(mutants.len());
+    let start = || covered.program.clone();
+    Threads::usual().each(mutants, start, judge, |fate| {
+        fates.push(fate);
+        match progress() {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
         }
-        done
     });
-    fates.sort_by_key(|(at, _)| *at);
-    fates.into_iter().map(|(_, fate)| fate).collect()
+    fates
 }
 
 /// A case, and how many mutants it has noticed.

@@ -8,10 +8,10 @@ use rungc_ir::Module;
 use rungc_models::runs::name_class;
 use rungc_rt::Class;
 use rungc_sim::engines::Piped;
+use rungc_sim::threads::Threads;
 use rustc_hash::FxHashMap;
 use std::io::{self, Read, Write};
 use std::path::Path;
-use std::thread;
 
 /// Maximum number of readings in flight. Their answers have to fit into a pipe, since this end writes while the child
 /// waits for it to read: 32 · 64 · 8 bytes.
@@ -64,7 +64,7 @@ impl<'m> Children<'m> {
             Form::Singles { .. } => 1,
         };
         let blocks = count.div_ceil(together).max(1);
-        let jobs = thread::available_parallelism().map_or(1, |jobs| jobs.get() as u32);
+        let jobs = Threads::usual().count() as u32;
         let each = blocks.div_ceil(jobs.min(blocks)) * together;
         let mut children = Vec::new();
         for first in (0..count.max(1)).step_by(each as usize) {

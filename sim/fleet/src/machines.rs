@@ -4,6 +4,7 @@ use crate::engine::{At, Engine, Failed, FleetError};
 use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_rt::{Class, FIRST_COUNTER32, Plc, Program, Stop, VirtualHal};
+use rungc_sim::threads::Threads;
 use std::thread;
 
 /// From how many PLCs on they are divided among threads.
@@ -59,7 +60,7 @@ impl Engine for Machines<'_> {
             plcs.iter_mut()
                 .for_each(|one| one.scan(before_ms, now_ms, scan_us));
         };
-        let jobs = thread::available_parallelism().map_or(1, usize::from);
+        let jobs = Threads::usual().count();
         if self.plcs.len() < WORTH_THREADS || jobs == 1 {
             return scan(&mut self.plcs);
         }

@@ -14,6 +14,7 @@ use crate::wide::{Event, Items, LANES, Sweep, refusal};
 use fastrand::Rng;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 use web_time::Instant;
 
@@ -111,7 +112,8 @@ pub fn search(
     let mut rng = Rng::with_seed(limits.seed);
     let items = Items::new(task, &view);
     let may_sweep = refusal(task).is_none();
-    let workers = (0..limits.threads.max(1)).map(|_| Worker::new(task, &items, limits));
+    let threads = limits.threads.clamp(1, PARTS);
+    let workers = (0..threads).map(|_| Worker::new(task, &items, limits));
     let mut workers: Vec<Worker> = workers.collect::<Result<_, _>>()?;
     let mut rounds = 0;
     loop {
@@ -218,10 +220,12 @@ impl<'t> Round<'_, 't> {
         parts: &[(u64, usize)],
         workers: &mut [Worker<'t>],
     ) -> Result<Vec<PartResult<'t>>, String> {
-        let threads = workers.len();
-        let of_thread = |thread: usize, worker: &mut Worker<'t>| {
-            let own = parts.iter().enumerate().skip(thread).step_by(threads);
-            let brought = own.map(|(i, &part)| match self.items {
+        // Parts differ in length, so each thread takes the next one when it has finished the last.
+        let next = AtomicUsize::new(0);
+        let of_thread = |worker: &mut Worker<'t>| {
+            let numbers = std::iter::from_fn(|| Some(next.fetch_add(1, Ordering::Relaxed)));
+            let own = numbers.map_while(|i| Some((i, *parts.get(i)?)));
+            let brought = own.map(|(i, part)| match self.items {
                 Some(items) => (i, self.sweeps(worker, items, part)),
                 None => (i, self.part(&mut worker.runner, part)),
             });
@@ -229,12 +233,12 @@ impl<'t> Round<'_, 't> {
         };
         let mut all: Vec<(usize, PartResult)> = Vec::new();
         if let [only] = workers {
-            all = of_thread(0, only);
+            all = of_thread(only);
         } else {
             let of_thread = &of_thread;
             std::thread::scope(|scope| {
-                let workers = workers.iter_mut().enumerate();
-                let running = workers.map(|(i, worker)| scope.spawn(move || of_thread(i, worker)));
+                let workers = workers.iter_mut();
+                let running = workers.map(|worker| scope.spawn(move || of_thread(worker)));
                 for thread in running.collect::<Vec<_>>() {
                     let brought = thread.join();
                     all.extend(brought.map_err(|_| "a thread of the search has failed")?);

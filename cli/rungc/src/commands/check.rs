@@ -5,36 +5,59 @@ pub(super) mod draw;
 
 use super::subject::{self, Subject};
 use super::{
-    Context, Failure, Result, conclude, counted, findings, fix, grouped, ports, properties, read,
+    Context, Failure, Result, conclude, counted, findings, fix, grouped, ports, properties,
+    report_idle, unproven, unread, with_settings,
 };
 use crate::args::{CheckArgs, Properties};
 use crate::report::Reporter;
-use rungc_lower::compile;
+use rungc_frontend::{Read, ReadError};
+use rungc_lower::compile::{self, Compiled};
 use rungc_models::Model;
+use rungc_project::Error;
+use rungc_sim::threads::Threads;
 use rungc_syntax::{Device, DeviceClass, OperandKind, Parameters, Program};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Reports everything that is wrong with programs.
 pub fn run(args: &CheckArgs, cx: Context) -> Result {
     let mut noted = BTreeSet::new();
-    subject::each(&args.inputs, cx, |subject, reporter| {
-        if args.fix {
-            fix::fix(subject, cx)?;
-        }
-        let outcome = check(subject, reporter, args, cx)?;
-        if reporter.is_for_people()
-            && let Some(path) = unapplied_properties(subject)
-            && noted.insert(path.clone())
-        {
-            cx.note(&format!(
+    // Fixes are reported before the findings that they leave.
+    let threads = match args.fix {
+        true => Threads::ONE,
+        false => Threads::usual(),
+    };
+    let prepare = |subject: &Subject| {
+        let fixed = match args.fix {
+            true => fix::fix(subject, cx),
+            false => Ok(()),
+        };
+        fixed.map(|()| Checked::of(subject, args))
+    };
+    subject::each_in(
+        threads,
+        &args.inputs,
+        cx,
+        &prepare,
+        |subject, checked, reporter| {
+            let checked = match checked? {
+                Ok(checked) => checked,
+                Err(error) => return Err(unread(&error, subject, reporter)?),
+            };
+            let outcome = checked.report(subject, reporter, args, cx)?;
+            if reporter.is_for_people()
+                && let Some(path) = unapplied_properties(subject)
+                && noted.insert(path.clone())
+            {
+                cx.note(&format!(
                 "  Properties of {} apply to no program: name one with `program = \"…\"` in its `[project]`",
                 path.display()
             ));
-        }
-        Ok(outcome)
-    })
+            }
+            Ok(outcome)
+        },
+    )
 }
 
 /// Settings whose properties apply to no program, because they name none.
@@ -44,51 +67,89 @@ fn unapplied_properties(subject: &Subject) -> Option<PathBuf> {
     idle.then(|| subject::near(project.path.clone()))
 }
 
-fn check(subject: &Subject, reporter: &mut Reporter, args: &CheckArgs, cx: Context) -> Result {
-    let start = Instant::now();
-    let read = read(subject, reporter)?;
-    check_properties(subject, &read.program, reporter, cx)?;
-    let checked = compile::check(&read.program, &subject.options());
-    let mut findings = findings(subject, &read, &checked);
-    let mut assumptions = Vec::new();
-    if args.deep && !findings.failed() {
-        let found = deep::findings(subject, &read, &checked);
-        if found.open > 0 {
-            let open = counted(found.open, "question");
+/// A program with all that is wrong with it, before it is reported.
+struct Checked {
+    read: Read,
+    /// `Err`: the settings of the program cannot be applied to it.
+    compiled: std::result::Result<Compiled, Error>,
+    /// Findings of `--deep`.
+    found: deep::Found,
+    elapsed: Duration,
+}
+
+impl Checked {
+    fn of(subject: &Subject, args: &CheckArgs) -> std::result::Result<Self, ReadError> {
+        let start = Instant::now();
+        let mut read = subject::source(subject)?;
+        unproven::suggest(&mut read, subject.model);
+        let completed = with_settings(subject, &mut read.program);
+        let compiled = completed.map(|()| compile::check(&read.program, &subject.options()));
+        let found = match &compiled {
+            Ok(compiled) if args.deep && !findings(subject, &read, compiled).failed() => {
+                deep::findings(subject, &read, compiled)
+            }
+            _ => deep::Found::default(),
+        };
+        Ok(Checked {
+            read,
+            compiled,
+            found,
+            elapsed: start.elapsed(),
+        })
+    }
+
+    fn report(
+        self,
+        subject: &Subject,
+        reporter: &mut Reporter,
+        args: &CheckArgs,
+        cx: Context,
+    ) -> Result {
+        let read = self.read;
+        report_idle(subject, read.program.kind, reporter);
+        let compiled = match self.compiled {
+            Ok(compiled) => compiled,
+            Err(error) => {
+                subject::report_invalid(error, &subject.reporting, reporter)?;
+                return Err(Failure::Reported);
+            }
+        };
+        check_properties(subject, &read.program, reporter, cx)?;
+        let mut findings = findings(subject, &read, &compiled);
+        if self.found.open > 0 {
+            let open = counted(self.found.open, "question");
             cx.note(&format!(
                 "        Open {open} of --deep: not decided in time"
             ));
         }
-        assumptions = found.assumptions;
-        findings.add(found.diagnostics, &subject.reporting);
-    }
-    if (args.draw || args.deep) && reporter.is_for_people() {
-        findings.drawn = draw::networks(&read.program, checked.model, &findings.diagnostics);
-    }
-    if let Some(parameters) = &read.program.parameters {
-        cx.detail(|| parameter_lines(parameters, checked.model));
-    }
-    for port in &checked.ports {
-        cx.detail(|| ports::line(port));
-    }
-    let elapsed = start.elapsed();
-    let name = findings.name(reporter.many());
-    let outcome = conclude(&findings, reporter, cx, || {
-        format!(
-            "    Checked {name} ({}, {}, {}) in {} ms",
-            checked.model.name.to_uppercase(),
-            counted(checked.steps as usize, "step"),
-            counted(devices(&read.program), "device"),
-            elapsed.as_millis()
-        )
-    })?;
-    if !assumptions.is_empty() {
-        cx.note("      Proved for this model under these assumptions:");
-        for line in assumptions {
-            cx.note(&format!("             - {line}"));
+        findings.add(self.found.diagnostics, &subject.reporting);
+        if (args.draw || args.deep) && reporter.is_for_people() {
+            findings.drawn = draw::networks(&read.program, compiled.model, &findings.diagnostics);
         }
+        if let Some(parameters) = &read.program.parameters {
+            cx.detail(|| parameter_lines(parameters, compiled.model));
+        }
+        for port in &compiled.ports {
+            cx.detail(|| ports::line(port));
+        }
+        let name = findings.name(reporter.many());
+        let outcome = conclude(&findings, reporter, cx, || {
+            format!(
+                "    Checked {name} ({}, {}, {}) in {} ms",
+                compiled.model.name.to_uppercase(),
+                counted(compiled.steps as usize, "step"),
+                counted(devices(&read.program), "device"),
+                self.elapsed.as_millis()
+            )
+        })?;
+        if !self.found.assumptions.is_empty() {
+            cx.note("      Proved for this model under these assumptions:");
+            for line in self.found.assumptions {
+                cx.note(&format!("             - {line}"));
+            }
+        }
+        Ok(outcome)
     }
-    Ok(outcome)
 }
 
 /// Reports properties of the settings that `verify` could not decide.

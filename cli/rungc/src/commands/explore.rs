@@ -25,6 +25,7 @@ use rungc_sim::LoadError;
 use rungc_sim::plant;
 use rungc_sim::property::{Condition, Property};
 use rungc_sim::record::Seen;
+use rungc_sim::threads::Threads;
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Span, codes};
 use rungc_verify::replay::Change;
 use std::path::{Path, PathBuf};
@@ -130,7 +131,7 @@ impl Searched<'_> {
             scans: args.scans,
             time: args.timeout.map(Duration::from_millis),
             seed: args.seed,
-            threads: self.threads(),
+            threads: self.threads().count(),
         };
         interruption::note();
         let report = progress::spin("searching", || {
@@ -140,8 +141,8 @@ impl Searched<'_> {
         });
         let report = report.map_err(Failure::Because)?;
         let shown: Vec<Shown> = progress::spin("shortening", || {
-            let found = report.found.iter().cloned();
-            let short = found.map(|found| shrink(self.task, found));
+            let short = |found: &Found| shrink(self.task, found.clone());
+            let short = self.threads().map(&report.found, short).into_iter();
             short.map(|found| self.shown(found)).collect()
         });
         let differing = self.replay(&shown)?;
@@ -163,10 +164,9 @@ impl Searched<'_> {
         )
     }
 
-    fn threads(&self) -> usize {
+    fn threads(&self) -> Threads {
         let given = self.args.threads.map(usize::from);
-        let all = || std::thread::available_parallelism().map_or(1, usize::from);
-        given.unwrap_or_else(all)
+        given.map_or_else(Threads::usual, Threads::new)
     }
 
     /// Writes the requested files.

@@ -152,9 +152,7 @@ pub fn read_as_written(
 ) -> std::result::Result<Read, Failure> {
     match subject::source(subject) {
         Ok(read) => {
-            if !reporter.many() {
-                report_idle(subject, read.program.kind);
-            }
+            report_idle(subject, read.program.kind, reporter);
             Ok(read)
         }
         Err(error) => Err(unread(&error, subject, reporter)?),
@@ -162,7 +160,10 @@ pub fn read_as_written(
 }
 
 /// Reports options for reading that have no effect on a program of this kind; among several, they are for others.
-fn report_idle(subject: &Subject, kind: SourceKind) {
+fn report_idle(subject: &Subject, kind: SourceKind, reporter: &Reporter) {
+    if reporter.many() {
+        return;
+    }
     let options = [
         ("--compiled", SourceKind::GxWorks2, "a GX Works2 project"),
         ("--names", SourceKind::Plcopen, "PLCopen XML"),
@@ -200,18 +201,26 @@ pub fn complete(
     program: &mut Program,
     reporter: &mut Reporter,
 ) -> std::result::Result<(), Failure> {
-    if let Some(project) = &subject.project {
-        let options = CompileOptions {
-            model: subject.model,
-            ..CompileOptions::default()
-        };
-        let model = compile::model(program, &options);
-        if let Err(error) = project.complete(&subject.file, program, model) {
-            subject::report_invalid(error, &subject.reporting, reporter)?;
-            return Err(Failure::Reported);
-        }
-    }
-    Ok(())
+    with_settings(subject, program).or_else(|error| {
+        subject::report_invalid(error, &subject.reporting, reporter)?;
+        Err(Failure::Reported)
+    })
+}
+
+/// As [`complete`], without a report.
+fn with_settings(
+    subject: &Subject,
+    program: &mut Program,
+) -> std::result::Result<(), rungc_project::Error> {
+    let Some(project) = &subject.project else {
+        return Ok(());
+    };
+    let options = CompileOptions {
+        model: subject.model,
+        ..CompileOptions::default()
+    };
+    let model = compile::model(program, &options);
+    project.complete(&subject.file, program, model)
 }
 
 /// Reports that a program cannot be read.

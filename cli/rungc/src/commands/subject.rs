@@ -9,11 +9,13 @@ use rungc_lower::compile::CompileOptions;
 use rungc_models::{ModelId, Plc, Variant};
 use rungc_project::serve::Serve;
 use rungc_project::{Error, FILE, Project};
+use rungc_sim::threads::Threads;
 use rungc_syntax::{DeviceClass, Diagnostics, Program, codes};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Name of standard input.
 const STDIN: &str = "-";
@@ -24,7 +26,7 @@ pub struct Subject {
     /// The file or folder as named; `-` is standard input.
     pub file: PathBuf,
     /// The settings of its project.
-    pub project: Option<Rc<Project>>,
+    pub project: Option<Arc<Project>>,
     /// The model, if it is chosen; else the program names it.
     pub model: Option<ModelId>,
     /// The PLC of its family that the program is held to.
@@ -95,24 +97,24 @@ pub fn option_of(option: &str, subject: &Subject) -> String {
 struct Projects<'a> {
     reading: &'a Reading,
     cx: Context,
-    loaded: BTreeMap<PathBuf, Rc<Project>>,
+    loaded: BTreeMap<PathBuf, Arc<Project>>,
 }
 
 impl Projects<'_> {
     /// The settings for a path.
-    fn of(&mut self, path: &Path) -> std::result::Result<Option<Rc<Project>>, Failure> {
+    fn of(&mut self, path: &Path) -> std::result::Result<Option<Arc<Project>>, Failure> {
         let found = match &self.reading.project {
             Some(given) => Some(given.clone()),
             None => Project::find(path),
         };
         let Some(found) = found else { return Ok(None) };
         if let Some(project) = self.loaded.get(&found) {
-            return Ok(Some(Rc::clone(project)));
+            return Ok(Some(Arc::clone(project)));
         }
-        let project = Rc::new(load(&found, &self.reading.reporting, self.cx)?);
+        let project = Arc::new(load(&found, &self.reading.reporting, self.cx)?);
         self.cx
             .detail(|| format!("    Settings {}", project.path.display()));
-        self.loaded.insert(found, Rc::clone(&project));
+        self.loaded.insert(found, Arc::clone(&project));
         Ok(Some(project))
     }
 
@@ -136,7 +138,7 @@ impl Projects<'_> {
             options.names.devices.extend(given.devices);
             options.names.free.splice(0..0, given.free);
         }
-        let of_project = |project: &Rc<Project>| {
+        let of_project = |project: &Arc<Project>| {
             let model = project.model?;
             Some(Plc {
                 model,
@@ -361,33 +363,57 @@ pub fn each(
     cx: Context,
     mut work: impl FnMut(&Subject, &mut Reporter) -> Result,
 ) -> Result {
+    let work = |subject: &Subject, (), reporter: &mut Reporter| work(subject, reporter);
+    each_in(Threads::ONE, inputs, cx, &|_| (), work)
+}
+
+/// As [`each`], with a part of the work that several threads do, each for another program: `prepare` reports nothing,
+/// and `work` takes its results in the order of the programs.
+pub fn each_in<P: Send>(
+    threads: Threads,
+    inputs: &Inputs,
+    cx: Context,
+    prepare: &(dyn Fn(&Subject) -> P + Sync),
+    mut work: impl FnMut(&Subject, P, &mut Reporter) -> Result,
+) -> Result {
     let (subjects, many) = all(inputs, cx)?;
     let reporting = &inputs.reading.reporting;
     let mut reporter = Reporter::new(reporting, cx, many);
     let mut worst = Outcome::Success;
     let mut unusable = 0;
     let mut stopped = None;
-    for subject in &subjects {
-        let outcome = match work(subject, &mut reporter) {
-            Ok(outcome) => outcome,
-            Err(Failure::Because(_)) if interruption::is_requested() => Outcome::Interrupted,
-            // One program that cannot be worked on does not hide the others.
-            Err(Failure::Because(why)) => {
-                eprint_line(&format!("rungc: {why}"));
-                Outcome::Unusable
+    let prepare = |(): &mut (), subject: &Subject| prepare(subject);
+    let mut left = subjects.iter();
+    threads.each(
+        &subjects,
+        || (),
+        prepare,
+        |prepared| {
+            let Some(subject) = left.next() else {
+                return ControlFlow::Break(());
+            };
+            let outcome = match work(subject, prepared, &mut reporter) {
+                Ok(outcome) => outcome,
+                Err(Failure::Because(_)) if interruption::is_requested() => Outcome::Interrupted,
+                // One program that cannot be worked on does not hide the others.
+                Err(Failure::Because(why)) => {
+                    eprint_line(&format!("rungc: {why}"));
+                    Outcome::Unusable
+                }
+                Err(Failure::Reported) => Outcome::Unusable,
+                Err(failure) => {
+                    stopped = Some(failure);
+                    return ControlFlow::Break(());
+                }
+            };
+            unusable += usize::from(outcome == Outcome::Unusable);
+            worst = worst.max(outcome);
+            match outcome {
+                Outcome::Interrupted => ControlFlow::Break(()),
+                _ => ControlFlow::Continue(()),
             }
-            Err(Failure::Reported) => Outcome::Unusable,
-            Err(failure) => {
-                stopped = Some(failure);
-                break;
-            }
-        };
-        unusable += usize::from(outcome == Outcome::Unusable);
-        worst = worst.max(outcome);
-        if outcome == Outcome::Interrupted {
-            break;
-        }
-    }
+        },
+    );
     let totals = reporter.totals();
     let printed = reporter.finish();
     if let Some(failure) = stopped {

@@ -18,8 +18,9 @@ use files::Unread;
 use report::Results;
 use rungc_project::Project;
 use rungc_runtime_sources::cache::{self, Slot};
-use rungc_sim::engines::{EngineKind, build};
+use rungc_sim::engines::{EngineKind, prepare};
 use rungc_sim::plctest::{self, Report, Suite, TestFile};
+use rungc_sim::threads::Threads;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -161,10 +162,10 @@ fn run_on(kind: EngineKind, suite: &Suite, folder: &Path) -> std::result::Result
         EngineKind::Interp => "preparing",
         _ => "building the engine",
     };
-    let built = progress::spin(what, || build(kind, suite.modules(), folder));
-    let mut engine = built.map_err(|error| Failure::Because(error.to_string()))?;
+    let ready = progress::spin(what, || prepare(kind, suite.modules(), folder));
+    let ready = ready.map_err(|error| Failure::Because(error.to_string()))?;
     let bar = progress::bar(suite.len() as u64).with_message(kind.name());
-    let report = plctest::run(suite, engine.as_mut(), &mut |_| {
+    let report = plctest::run_in(suite, Threads::usual(), &|| ready.start(), &mut |_| {
         bar.inc(1);
         match interruption::is_requested() {
             true => ControlFlow::Break(()),

@@ -23,6 +23,7 @@ use rungc_evidence::Evidence;
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_sim::property::Condition;
+use rungc_sim::threads::Threads;
 use rungc_syntax::{Diagnostic, Diagnostics, Span, codes};
 use rungc_verify::certificate::{Certificate, certificate};
 use rungc_verify::model::World;
@@ -138,12 +139,11 @@ fn decisions(
     module: &Module,
     options: &Options,
 ) -> Vec<(Decision, Duration)> {
-    let decisions = requested.iter().map(|requested| {
+    Threads::usual().map(requested, |requested| {
         let begin = Instant::now();
         let decision = decide(module, &requested.property, options);
         (decision, begin.elapsed())
-    });
-    decisions.collect()
+    })
 }
 
 /// Reports what was decided, and writes what is requested about it.

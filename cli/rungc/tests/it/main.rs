@@ -59,6 +59,7 @@ mod serve;
 mod servers;
 mod sessions;
 mod several;
+mod threads;
 mod together;
 mod tools;
 #[cfg(unix)]

@@ -3,6 +3,7 @@
 //! [`load`] reads a file; [`Suite`] compiles the programs of many; [`run`] runs them on an
 //! [`Engine`](crate::engines::Engine).
 
+mod cases;
 mod format;
 mod keys;
 mod lines;
@@ -22,10 +23,11 @@ mod trace;
 mod values;
 mod wiring;
 
+pub use cases::{run, run_in};
 pub use program::{CaseProgram, ProgramFile};
 pub use report::{Failure, Outcome, Report, Uncompiled};
 pub use rules::{Never, RuleKind, Rules, Whenever, Within};
-pub use runner::{run, run_steps};
+pub use runner::run_steps;
 pub use serial::{Item, Port, PortId, Protocol, Sent};
 pub use stated::Stated;
 use std::collections::BTreeSet;

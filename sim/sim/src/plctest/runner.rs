@@ -1,16 +1,12 @@
-//! Runs the cases of a suite on an engine.
+//! Runs a case on an engine.
 
 use super::lines::Lines;
 use super::modules::{MILLION, millionths};
 use super::rules::Watch;
 use super::servers::Servers;
-use super::suite::Built;
 use super::trace::Tracer;
 use super::wiring;
-use super::{
-    Case, Check, Failure, Outcome, Port, Rejects, Report, Run, Setting, Step, Suite, Uncompiled,
-    Value,
-};
+use super::{Case, Check, Failure, Port, Run, Setting, Step, Value};
 use crate::engines::{Engine, EngineError};
 use crate::plant::{Description, Plant};
 use crate::protocol::{Answer, Request};
@@ -21,8 +17,6 @@ use rungc_ir::Module;
 use rungc_rt::{Class, FIRST_COUNTER32};
 use rungc_syntax::DeviceClass;
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::ControlFlow;
-use web_time::Instant;
 
 /// Relative tolerance of floats.
 const FLOAT_TOLERANCE: f64 = 1e-5;
@@ -32,45 +26,6 @@ const FREQUENCY_TOLERANCE: f64 = 0.01;
 
 /// Relative tolerance of analog signals.
 const CHANNEL_TOLERANCE: f64 = 0.001;
-
-/// Runs all cases. `progress` receives each result as it is known, and may cancel the run.
-pub fn run(
-    suite: &Suite,
-    engine: &mut dyn Engine,
-    progress: &mut dyn FnMut(&Outcome) -> ControlFlow<()>,
-) -> Report {
-    let mut report = Report::default();
-    for (id, case) in suite.cases() {
-        let begin = Instant::now();
-        let built = suite.built(id);
-        let result = match (&case.check, built) {
-            (_, Built::Known) => Ok(()),
-            (Check::Rejects(rejects), built) => check_rejects(*rejects, built),
-            (Check::Steps { .. }, Built::Refused(plc, errors)) => {
-                Err(Failure::Refused(Uncompiled::new(case, *plc, errors)))
-            }
-            (Check::Steps { .. }, Built::Modules(built)) => {
-                let plcs = built
-                    .iter()
-                    .map(|&number| (number, &suite.modules()[number]));
-                run_steps(engine, case, &plcs.collect::<Vec<_>>())
-            }
-        };
-        let outcome = Outcome {
-            id,
-            engine: engine.name().to_string(),
-            failure: result.err(),
-            cached: matches!(built, Built::Known),
-            elapsed: begin.elapsed(),
-        };
-        let flow = progress(&outcome);
-        report.outcomes.push(outcome);
-        if flow.is_break() {
-            break;
-        }
-    }
-    report
-}
 
 /// Runs a case: its own program and those of the other PLCs, each with its number among the engine's.
 ///
@@ -90,36 +45,6 @@ pub fn run_steps(
         .map(|&(number, module)| PlcInfo::of(number, module));
     let servers = Servers::new(&case.serve, programs[0].1);
     run_case(engine, case, (plcs.collect(), servers), init, steps)
-}
-
-/// Checks that the compiler raised the error that a case expects.
-fn check_rejects(rejects: Rejects, built: &Built) -> Result<(), Failure> {
-    let wanted = match (rejects.code, rejects.line) {
-        (0, None) => "an error".to_string(),
-        (0, Some(line)) => format!("an error on line {line}"),
-        (code, None) => format!("error {code}"),
-        (code, Some(line)) => format!("error {code} on line {line}"),
-    };
-    let Built::Refused(_, errors) = built else {
-        let message = format!("expected {wanted}, but the program compiles");
-        return Err(Failure::Accepted(message));
-    };
-    let fits = |(code, line, _): &(Option<u16>, u32, String)| {
-        (rejects.code == 0 || *code == Some(rejects.code))
-            && rejects.line.is_none_or(|l| l == *line)
-    };
-    if errors.iter().any(fits) {
-        return Ok(());
-    }
-    let found: Vec<String> = errors
-        .iter()
-        .map(|(code, line, message)| match code {
-            Some(code) => format!("error {code} on line {line}: {message}"),
-            None => format!("line {line}: {message}"),
-        })
-        .collect();
-    let message = format!("expected {wanted}, found {}", found.join("; "));
-    Err(Failure::Accepted(message))
 }
 
 /// Properties of a PLC for the runner.

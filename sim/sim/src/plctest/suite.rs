@@ -1,6 +1,7 @@
 //! The programs of many test files, compiled.
 
 use super::{Case, CaseProgram, Check, OtherPlc, TestFile};
+use crate::threads::Threads;
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, Compiled, compile};
@@ -78,37 +79,40 @@ impl Suite {
     }
 
     fn compile_as(files: Vec<TestFile>, how: How, known: &BTreeSet<Id>) -> Self {
+        let shared: Vec<Shared> = files.iter().map(Shared::of).collect();
+        let jobs = jobs(&files, &shared, known);
+        let compiled = Threads::usual().map(&jobs, |&(id, group)| {
+            let file = &files[id.file];
+            compile_all(&file.cases[id.case], how, || match group {
+                Some(first) => shared[id.file].observed(file, first),
+                None => observed(&file.cases[id.case], 0),
+            })
+        });
         let mut lowered: Vec<Lowered> = Vec::new();
-        let mut built = Vec::with_capacity(files.len());
-        for (number, file) in files.iter().enumerate() {
-            let shared = Shared::of(file);
-            // First of the cases that share a program.
-            let mut done: BTreeMap<usize, Result<usize, Errors>> = BTreeMap::new();
-            let mut of_file = Vec::with_capacity(file.cases.len());
-            for (i, case) in file.cases.iter().enumerate() {
-                if known.contains(&Id {
-                    file: number,
-                    case: i,
-                }) {
-                    of_file.push(Built::Known);
-                    continue;
-                }
-                let Some(first) = shared.first(i) else {
-                    of_file.push(build(case, how, &mut lowered));
-                    continue;
-                };
-                let compiled = done.entry(first).or_insert_with(|| {
-                    let observed = shared.observed(file, first);
-                    lowered.push(compile_case(case, observed, how)?);
-                    Ok(lowered.len() - 1)
-                });
-                of_file.push(match compiled {
-                    Ok(module) => Built::Modules(vec![*module]),
-                    Err(errors) => Built::Refused(0, errors.clone()),
-                });
-            }
-            built.push(of_file);
+        let mut done: BTreeMap<Id, Result<Vec<usize>, (usize, Errors)>> = BTreeMap::new();
+        for ((id, group), compiled) in jobs.into_iter().zip(compiled) {
+            let modules = compiled.map(|compiled| {
+                let first = lowered.len();
+                lowered.extend(compiled);
+                (first..lowered.len()).collect()
+            });
+            let case = group.unwrap_or(id.case);
+            done.insert(Id { case, ..id }, modules);
         }
+        let of_case = |id: Id| {
+            let case = shared[id.file].first(id.case).unwrap_or(id.case);
+            let done = done.get(&Id { case, ..id });
+            match done.filter(|_| !known.contains(&id)) {
+                Some(Ok(modules)) => Built::Modules(modules.clone()),
+                Some(Err((plc, errors))) => Built::Refused(*plc, errors.clone()),
+                None => Built::Known,
+            }
+        };
+        let of_file = |(file, test): (usize, &TestFile)| {
+            let cases = 0..test.cases.len();
+            cases.map(|case| of_case(Id { file, case })).collect()
+        };
+        let built = files.iter().enumerate().map(of_file).collect();
         let (modules, marks) = lowered.into_iter().unzip();
         Suite {
             files,
@@ -188,22 +192,37 @@ impl Suite {
     }
 }
 
-/// Compiles the programs of a case that shares none.
-fn build(case: &Case, how: How, modules: &mut Vec<Lowered>) -> Built {
+/// The cases whose programs have to be compiled, in their order; of those that share a program the first one that is
+/// not known, with the first of all of them.
+fn jobs(files: &[TestFile], shared: &[Shared], known: &BTreeSet<Id>) -> Vec<(Id, Option<usize>)> {
+    let mut jobs = Vec::new();
+    for (file, (test, shared)) in files.iter().zip(shared).enumerate() {
+        let mut seen = BTreeSet::new();
+        for case in 0..test.cases.len() {
+            let id = Id { file, case };
+            let group = shared.first(case);
+            if !known.contains(&id) && group.is_none_or(|first| seen.insert(first)) {
+                jobs.push((id, group));
+            }
+        }
+    }
+    jobs
+}
+
+/// Compiles the program of a case, with the devices that are observed, and those of its other PLCs; or gives the number
+/// of the first PLC whose program raises errors, with them.
+fn compile_all(
+    case: &Case,
+    how: How,
+    observed: impl FnOnce() -> Devices,
+) -> Result<Vec<Lowered>, (usize, Errors)> {
     let others = (1..).zip(&case.others);
     let others = others.map(|(plc, other)| compile_other(case, plc, other, how));
-    let own = compile_case(case, observed(case, 0), how);
+    let own = compile_case(case, observed(), how);
     let compiled = std::iter::once(own).chain(others);
     let compiled = (0..).zip(compiled);
     let compiled = compiled.map(|(plc, result)| result.map_err(|errors| (plc, errors)));
-    match compiled.collect::<Result<Vec<Lowered>, (usize, Errors)>>() {
-        Ok(compiled) => {
-            let first = modules.len();
-            modules.extend(compiled);
-            Built::Modules((first..modules.len()).collect())
-        }
-        Err((plc, errors)) => Built::Refused(plc, errors),
-    }
+    compiled.collect()
 }
 
 /// Cases of a file that run the same program on the same PLC, so that it is compiled once, with the devices that any of

@@ -12,14 +12,14 @@ use rungc_rt::VirtualHal;
 use rungc_sim::plant::Description;
 use rungc_syntax::DeviceClass;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// The settings whose `[io]` a run uses: those that `--io` names, or those of its project when it is served.
 pub fn settings(
     args: &ServeArgs,
     subject: &Subject,
     cx: Context,
-) -> Result<Option<Rc<Project>>, Failure> {
+) -> Result<Option<Arc<Project>>, Failure> {
     match &args.io {
         Some(path) => {
             let project = subject::load(path, &subject.reporting, cx)?;
@@ -28,7 +28,7 @@ pub fn settings(
                 let why = format!("--io {path}: there is no table `[io.NAME]`");
                 return Err(Failure::Because(why));
             }
-            Ok(Some(Rc::new(project)))
+            Ok(Some(Arc::new(project)))
         }
         None if args.of_project => Ok(subject.project.clone()),
         None => Ok(None),
@@ -37,7 +37,7 @@ pub fn settings(
 
 /// The connections of these settings, held to the model and to the simulated machine.
 pub fn connections(
-    settings: Option<Rc<Project>>,
+    settings: Option<Arc<Project>>,
     subject: &Subject,
     (module, machine): (&Module, Option<&Description>),
     args: &ServeArgs,

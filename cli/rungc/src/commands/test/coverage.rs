@@ -15,6 +15,7 @@ use rungc_ir::Module;
 use rungc_ir::passes::simplify;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_sim::plctest::{Suite, TestFile};
+use rungc_sim::threads::Threads;
 use rungc_syntax::Program;
 use rungc_verify::prove::Options;
 use rungc_verify::same::compare;
@@ -131,16 +132,15 @@ pub fn tell_equivalent(program: &Covered, mutants: &[Mutant], fates: &mut [Fate]
         ..Options::default()
     };
     let survivors = mutants.iter().zip(fates);
-    for (mutant, fate) in survivors.filter(|(_, fate)| **fate == Fate::Survived) {
-        if interruption::is_requested() {
-            return;
-        }
-        let Some(new) = module(program, &mutant.applied(&program.program)) else {
-            continue;
-        };
-        if compare(&old, &new, &options).is_proved() {
-            *fate = Fate::Equivalent;
-        }
+    let survivors = survivors.filter(|(_, fate)| **fate == Fate::Survived);
+    let (survivors, fates): (Vec<&Mutant>, Vec<&mut Fate>) = survivors.unzip();
+    let equivalent = Threads::usual().map(&survivors, |mutant| {
+        let new = module(program, &mutant.applied(&program.program));
+        let is_same = |new| compare(&old, &new, &options).is_proved();
+        !interruption::is_requested() && new.is_some_and(is_same)
+    });
+    for (fate, _) in fates.into_iter().zip(equivalent).filter(|(_, same)| *same) {
+        *fate = Fate::Equivalent;
     }
 }
 

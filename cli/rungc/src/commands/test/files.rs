@@ -5,6 +5,7 @@ use crate::args::{Reporting, Shard};
 use rungc_sim::LoadError;
 use rungc_sim::plant;
 use rungc_sim::plctest::{self, Case, TestFile};
+use rungc_sim::threads::Threads;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -50,8 +51,8 @@ pub fn load(paths: &[PathBuf], filter: Option<&str>) -> std::result::Result<Vec<
     let names = names(paths)?;
     let mut problems = Vec::new();
     let mut files = Vec::new();
-    for name in &names {
-        match plctest::load(name) {
+    for loaded in Threads::usual().map(&names, |name| plctest::load(name)) {
+        match loaded {
             Ok(file) => files.push(file),
             Err(error) => problems.push(error),
         }
