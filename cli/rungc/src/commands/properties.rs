@@ -299,36 +299,8 @@ impl Reader<'_> {
             .expanded(expanded)
             .map_err(|(named, why)| self.refused(project, named, why))?;
         let row = &expanded.row;
-        let soon = |within: &Option<Named>| match within {
-            Some(within) => format!(" within {}", within.text),
-            None => String::new(),
-        };
-        let text = match &row.kind {
-            PropertyKind::Never(a) => format!("never {}", a.text),
-            PropertyKind::Always(a) => format!("always {}", a.text),
-            PropertyKind::Reachable(a) => format!("reachable {}", a.text),
-            PropertyKind::Whenever { when, then, within } => {
-                format!("whenever {} then {}{}", when.text, then.text, soon(within))
-            }
-            PropertyKind::Stays {
-                after,
-                holds,
-                until,
-            } => {
-                let part = |word, part: &Option<Named>| match part {
-                    Some(part) => format!(" {word} {}", part.text),
-                    None => String::new(),
-                };
-                let (after, until) = (part("after", after), part("until", until));
-                format!("stays {}{after}{until}", holds.text)
-            }
-        };
-        let text = match &row.name {
-            Some(name) => format!("{name}: {text}"),
-            None => text,
-        };
         Ok(RequestedProperty {
-            text,
+            text: stated(row),
             requirement: row.requirement.clone(),
             property,
         })
@@ -465,6 +437,38 @@ pub fn module<'a>(
     };
     simplify(&mut module);
     Ok(Some(module))
+}
+
+/// A row of the settings as text: `never Y000 & Y001`, after its name if it has one.
+pub fn stated(row: &Row) -> String {
+    let soon = |within: &Option<Named>| match within {
+        Some(within) => format!(" within {}", within.text),
+        None => String::new(),
+    };
+    let text = match &row.kind {
+        PropertyKind::Never(a) => format!("never {}", a.text),
+        PropertyKind::Always(a) => format!("always {}", a.text),
+        PropertyKind::Reachable(a) => format!("reachable {}", a.text),
+        PropertyKind::Whenever { when, then, within } => {
+            format!("whenever {} then {}{}", when.text, then.text, soon(within))
+        }
+        PropertyKind::Stays {
+            after,
+            holds,
+            until,
+        } => {
+            let part = |word, part: &Option<Named>| match part {
+                Some(part) => format!(" {word} {}", part.text),
+                None => String::new(),
+            };
+            let (after, until) = (part("after", after), part("until", until));
+            format!("stays {}{after}{until}", holds.text)
+        }
+    };
+    match &row.name {
+        Some(name) => format!("{name}: {text}"),
+        None => text,
+    }
 }
 
 /// Reports properties of devices that nothing drives.

@@ -11,11 +11,12 @@ mod sarif;
 mod verdicts;
 mod watch;
 
+use super::properties::stated;
 use super::{Context, Failure, Outcome, Result, counted, defaults, interruption, put, subject};
 use crate::args::{EngineChoice, Reporting, TestArgs, TestFormat};
 use crate::{output, progress};
 use files::Unread;
-use report::Results;
+use report::{Property, Results, Untested};
 use rungc_project::Project;
 use rungc_runtime_sources::cache::{self, Slot};
 use rungc_sim::engines::{EngineKind, prepare};
@@ -99,9 +100,19 @@ impl Chosen {
         Ok(files)
     }
 
-    /// Returns true if the settings demand properties, which are not test cases.
-    fn has_properties(&self) -> bool {
-        self.project.as_ref().is_some_and(Project::has_properties)
+    /// The properties that the settings demand, which are not test cases. `rungc verify` reports mistakes in them.
+    fn untested(&self) -> Option<Untested> {
+        let project = self.project.as_ref();
+        let project = project.filter(|project| project.has_properties())?;
+        let rows = rungc_functions::properties(project).unwrap_or_default();
+        let properties = rows.into_iter().map(|expanded| Property {
+            property: stated(&expanded.row),
+            requirement: expanded.row.requirement,
+        });
+        Some(Untested {
+            file: subject::near(project.path.clone()),
+            properties: properties.collect(),
+        })
     }
 
     /// Errors that are warnings.
@@ -140,13 +151,15 @@ fn run_files(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Context
         verdicts.keep(&suite, &report);
         review::traces(args, &suite, &mut report, cx)?;
     }
+    let untested = chosen.untested();
     let results = Results {
         suite: &suite,
         report: &report,
         elapsed: start.elapsed(),
+        untested: untested.as_ref(),
     };
     publish(args, &results, cx)?;
-    if chosen.has_properties() {
+    if untested.is_some() {
         cx.note("  Not tested `[[property]]` of rungc.toml, which `rungc verify` decides");
     }
     Ok(match report.is_success() {

@@ -183,6 +183,29 @@ pub fn file(findings: &Findings) -> File {
     }
 }
 
+impl File {
+    /// Adds what was found later in the same program.
+    fn extend(&mut self, later: File) {
+        self.errors += later.errors;
+        self.warnings += later.warnings;
+        self.notes += later.notes;
+        self.diagnostics.extend(later.diagnostics);
+        self.model = later.model.or(self.model);
+        self.steps = later.steps.or(self.steps);
+        self.ports.extend(later.ports);
+        self.report = later.report.or(self.report.take());
+        self.verification = later.verification.or(self.verification.take());
+    }
+}
+
+/// Adds the findings about a program. A command that reports on only one may do so in parts.
+pub fn add(files: &mut Vec<File>, file: File, many: bool) {
+    match files.last_mut() {
+        Some(last) if !many && last.file == file.file => last.extend(file),
+        _ => files.push(file),
+    }
+}
+
 /// The object as pretty-printed text: of the only file, or of `many`.
 pub fn render(files: Vec<File>, many: bool) -> io::Result<String> {
     if let ([file], false) = (&files[..], many) {

@@ -37,10 +37,21 @@ pub struct Case {
     pub problem: Option<Problem>,
 }
 
+/// Result of a case that did not pass.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Result {
+    /// A bad verdict.
+    Failed,
+    /// No verdict.
+    Error,
+    /// Something else gives the verdict.
+    Skipped,
+}
+
 /// Reason why a case did not pass.
 pub struct Problem {
-    /// True if there is no verdict, as opposed to a bad one.
-    pub is_error: bool,
+    /// Result.
+    pub result: Result,
     /// The kind of problem, in a word.
     pub kind: &'static str,
     /// One line.
@@ -65,7 +76,7 @@ pub fn of_errors(findings: &Findings) -> Suite {
         .map(|d| {
             let place = Location::of(findings, d.span).unwrap_or_default();
             let problem = Problem {
-                is_error: false,
+                result: Result::Failed,
                 kind: d.code,
                 message: d.message.clone(),
                 text: format!("{}: {}", place.headed(&path), d.message),
@@ -128,7 +139,7 @@ pub fn render_timed(name: &str, suites: &[Suite], elapsed: Duration) -> io::Resu
         .with_attributes([
             ("name", name),
             ("tests", &counts.tests),
-            ("skipped", "0"),
+            ("skipped", &counts.skipped),
             ("failures", &counts.failures),
             ("errors", &counts.errors),
             ("time", &seconds(elapsed)),
@@ -144,16 +155,18 @@ struct Counts {
     tests: String,
     failures: String,
     errors: String,
+    skipped: String,
 }
 
 impl Counts {
     fn of<'a>(cases: impl Iterator<Item = &'a Case>) -> Self {
-        let (mut tests, mut failures, mut errors) = (0, 0, 0);
+        let (mut tests, mut failures, mut errors, mut skipped) = (0, 0, 0, 0);
         for case in cases {
             tests += 1;
-            match &case.problem {
-                Some(problem) if problem.is_error => errors += 1,
-                Some(_) => failures += 1,
+            match case.problem.as_ref().map(|problem| problem.result) {
+                Some(Result::Failed) => failures += 1,
+                Some(Result::Error) => errors += 1,
+                Some(Result::Skipped) => skipped += 1,
                 None => {}
             }
         }
@@ -161,6 +174,7 @@ impl Counts {
             tests: tests.to_string(),
             failures: failures.to_string(),
             errors: errors.to_string(),
+            skipped: skipped.to_string(),
         }
     }
 }
@@ -171,7 +185,7 @@ fn suite(xml: &mut Xml, suite: &Suite) -> io::Result<()> {
     let element = xml.create_element("testsuite").with_attributes([
         ("name", &*clean(&suite.name)),
         ("tests", &counts.tests),
-        ("skipped", "0"),
+        ("skipped", &counts.skipped),
         ("errors", &counts.errors),
         ("failures", &counts.failures),
         ("time", &seconds(time)),
@@ -220,9 +234,17 @@ fn case(xml: &mut Xml, case: &Case) -> io::Result<()> {
         let Some(problem) = &case.problem else {
             return Ok(());
         };
-        let tag = match problem.is_error {
-            true => "error",
-            false => "failure",
+        let tag = match problem.result {
+            Result::Failed => "failure",
+            Result::Error => "error",
+            Result::Skipped => {
+                let skipped = xml.create_element("skipped");
+                let message = clean(&problem.message);
+                skipped
+                    .with_attribute(("message", &*message))
+                    .write_empty()?;
+                return Ok(());
+            }
         };
         xml.create_element(tag)
             .with_attributes([

@@ -281,7 +281,7 @@ impl<'a> Reporter<'a> {
                     },
                 );
             }
-            Format::Json => self.json.push(json::file(findings)),
+            Format::Json => json::add(&mut self.json, json::file(findings), self.many),
             Format::Sarif => self.sarif.add(findings, self.many),
             Format::Junit => self.junit.push(junit::of_errors(findings)),
             Format::Github => self.github.push_str(&github::findings(findings)),
@@ -319,6 +319,10 @@ impl<'a> Reporter<'a> {
             return self.add(findings);
         }
         self.totals.add(findings.totals());
+        if !self.many {
+            // That the program has no errors, reported with its warnings, is not a case beside verdicts.
+            self.junit.clear();
+        }
         let evidence = findings.verification.as_ref();
         self.junit.push(junit::Suite {
             name: location::named(findings.path),

@@ -136,6 +136,42 @@ fn gaps_are_found_by_changing_the_program() {
     );
 }
 
+/// A contact that only repeats another one can be left out: no test can notice that, and none has to (P19). What does
+/// change an output remains a gap.
+#[test]
+fn equivalent_mutants_are_not_survivors() {
+    let folder = desk();
+    let path = folder.path();
+    let twice = "LD X000\nOUT M0\nLD X000\nAND M0\nOUT Y000\nEND\n";
+    fs::write(path.join("twice.il"), twice).unwrap();
+    let tests = |steps: &str| {
+        format!(
+            "model = \"fx3u\"\ntopic = \"t\"\nprogram = \"twice.il\"\n[[case]]\nname = \"all\"\n\
+             [[case.step]]\nset = {{ X000 = 1 }}\nscans = 2\nexpect = {{ Y000 = 1 }}\n{steps}"
+        )
+    };
+    let judged = |steps: &str| {
+        fs::write(path.join("twice.plctest.toml"), tests(steps)).unwrap();
+        let shown = shown(path, &["test", "twice.plctest.toml", "--mutants"]);
+        shown
+            .lines()
+            .find(|line| line.starts_with("twice.il: "))
+            .unwrap()
+            .to_string()
+    };
+    let all = judged("[[case.step]]\nset = { X000 = 0 }\nexpect = { Y000 = 0 }\n");
+    let proved = "more never change an output (proved)";
+    assert!(
+        all.contains(", 0 survived,") && all.contains(proved),
+        "{all}"
+    );
+    let part = judged("");
+    assert!(
+        !part.contains(", 0 survived,") && part.contains(proved),
+        "{part}"
+    );
+}
+
 /// Cases beside other PLCs judge, too.
 #[test]
 fn cases_with_several_plcs_notice_mutants() {

@@ -5,7 +5,7 @@ use super::report::to_document;
 use crate::args::{TestArgs, TestFormat};
 use crate::commands::Failure;
 use crate::output;
-use crate::report::junit::{Case, Problem, Properties, Suite, render};
+use crate::report::junit::{self, Case, Problem, Properties, Suite, render};
 use crate::report::location::{Location, as_named, named};
 use crate::report::{github, sarif};
 use rungc_sim::LoadError;
@@ -37,7 +37,7 @@ pub fn publish(args: &TestArgs, errors: &[LoadError], cx: Context) -> Result<(),
     let text = match args.format {
         _ if args.coverage.is_some() || args.mutants => return Ok(()),
         TestFormat::Human => return Ok(()),
-        TestFormat::Junit => junit(&mistakes)?,
+        TestFormat::Junit => to_junit(&mistakes)?,
         TestFormat::Json => to_document(mistakes.as_slice())?,
         TestFormat::Sarif => sarif(&mistakes)?,
         TestFormat::Github => mistakes.iter().map(annotation).collect(),
@@ -72,7 +72,7 @@ fn mistakes(error: &LoadError) -> Vec<Mistake> {
 }
 
 /// A suite for each file, a case for each mistake.
-fn junit(mistakes: &[Mistake]) -> io::Result<String> {
+fn to_junit(mistakes: &[Mistake]) -> io::Result<String> {
     let of_one_file = mistakes.chunk_by(|a, b| a.file == b.file);
     let suites: Vec<_> = of_one_file
         .map(|mistakes| Suite {
@@ -95,7 +95,7 @@ fn case(mistake: &Mistake) -> Case {
         time: Duration::ZERO,
         properties: Properties::new(),
         problem: Some(Problem {
-            is_error: true,
+            result: junit::Result::Error,
             kind: KIND,
             message: mistake.message.clone(),
             text: format!("{place}: {}", mistake.message),

@@ -55,6 +55,7 @@ pub(super) fn run(args: &TestArgs, chosen: &Chosen, files: Vec<TestFile>, cx: Co
         suite: &suite,
         report: &report,
         elapsed: start.elapsed(),
+        untested: None,
     };
     print_text(&human(&results))?;
     if interruption::is_requested() {

@@ -1,16 +1,42 @@
-//! Results of tests as JUnit XML: a suite for each file; a case's class is its file and engine.
+//! Results of tests as JUnit XML: a suite for each file; a case's class is its file and engine. The properties of
+//! rungc.toml, which tests do not decide, are a suite of skipped cases.
 
 use super::report::{Results, kind, message};
-use crate::report::junit::{Case, Problem, Properties, Suite, render_timed};
+use crate::report::junit::{Case, Problem, Properties, Result, Suite, render_timed};
 use rungc_sim::plctest::{Failure, Outcome};
 use std::io;
+use std::time::Duration;
 
 /// The XML of a run.
 pub fn junit(results: &Results) -> io::Result<String> {
-    let suites: Vec<Suite> = (0..results.suite.files().len())
-        .map(|file| suite(results, file))
-        .collect();
+    let files = 0..results.suite.files().len();
+    let mut suites: Vec<Suite> = files.map(|file| suite(results, file)).collect();
+    suites.extend(untested(results));
     render_timed("rungc test", &suites, results.elapsed)
+}
+
+/// The properties of the settings, if there are any.
+fn untested(results: &Results) -> Option<Suite> {
+    let untested = results.untested?;
+    let class = untested.file.display().to_string();
+    let rows = untested.properties.iter();
+    let cases = rows.map(|row| Case {
+        name: row.property.clone(),
+        class: class.clone(),
+        time: Duration::ZERO,
+        properties: Vec::from_iter(row.requirement.clone().map(|id| ("requirement", id))),
+        problem: Some(Problem {
+            result: Result::Skipped,
+            kind: "property",
+            message: "`rungc verify` decides it".to_string(),
+            text: String::new(),
+        }),
+    });
+    Some(Suite {
+        cases: cases.collect(),
+        name: class.clone(),
+        properties: Properties::new(),
+    })
 }
 
 /// The cases of a file, which has this number.
@@ -27,8 +53,11 @@ fn suite(results: &Results, number: usize) -> Suite {
 fn case(results: &Results, outcome: &Outcome) -> Case {
     let file = &results.suite.files()[outcome.id.file];
     let problem = outcome.failure.as_ref().map(|failure| Problem {
-        // The test could not run.
-        is_error: matches!(failure, Failure::Engine { .. }),
+        result: match failure {
+            // The test could not run.
+            Failure::Engine { .. } => Result::Error,
+            _ => Result::Failed,
+        },
         kind: kind(failure),
         message: message(failure),
         text: outcome.describe(results.suite),

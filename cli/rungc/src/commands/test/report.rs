@@ -7,6 +7,7 @@ use rungc_sim::plctest::{Failure, Outcome, Report, Suite, Value};
 use rungc_syntax::diag::counted;
 use serde::Serialize;
 use std::io;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Cases that ran, and their results.
@@ -17,6 +18,26 @@ pub struct Results<'a> {
     pub report: &'a Report,
     /// Duration, with compiling.
     pub elapsed: Duration,
+    /// Properties of the settings, which tests do not decide.
+    pub untested: Option<&'a Untested>,
+}
+
+/// The properties of rungc.toml.
+pub struct Untested {
+    /// The file.
+    pub file: PathBuf,
+    /// The properties, in its order.
+    pub properties: Vec<Property>,
+}
+
+/// A property that `rungc verify` decides.
+#[derive(Serialize)]
+pub struct Property {
+    /// As it is written, after its name.
+    pub property: String,
+    /// Identifier of the requirement that it belongs to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub requirement: Option<String>,
 }
 
 /// The cases that failed, a paragraph each, and how many did. Those with one program that does not compile are one.
@@ -52,6 +73,9 @@ struct Document<'a> {
     failed: usize,
     seconds: f64,
     cases: Vec<Case<'a>>,
+    /// What `rungc verify` decides.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    untested: &'a [Property],
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     mistakes: &'a [Mistake],
 }
@@ -107,6 +131,9 @@ pub fn json(results: &Results) -> io::Result<String> {
         cases: outcomes
             .map(|outcome| case(results.suite, outcome))
             .collect(),
+        untested: results
+            .untested
+            .map_or(&[], |untested| &untested.properties),
         mistakes: &[],
     };
     to_json(&document)
@@ -119,6 +146,7 @@ pub fn to_document(mistakes: &[Mistake]) -> io::Result<String> {
         failed: 0,
         seconds: 0.0,
         cases: Vec::new(),
+        untested: &[],
         mistakes,
     })
 }

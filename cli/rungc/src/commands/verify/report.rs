@@ -2,7 +2,7 @@
 
 use crate::commands::properties::ExternalWrites;
 use crate::commands::{Outcome, counted};
-use crate::report::junit::{Case, Problem, Properties};
+use crate::report::junit::{self, Case, Problem, Properties};
 use rungc_ir::Module;
 use rungc_sim::property::Property;
 use rungc_syntax::{DeviceClass, codes};
@@ -56,7 +56,10 @@ impl Result<'_> {
             text.push('\n');
             self.describe(&mut text, module);
             Problem {
-                is_error: outcome == Outcome::Undecided,
+                result: match outcome {
+                    Outcome::Undecided => junit::Result::Error,
+                    _ => junit::Result::Failed,
+                },
                 kind: match outcome {
                     Outcome::Undecided => codes::PROPERTY_UNDECIDED.name,
                     _ => codes::PROPERTY_VIOLATED.name,

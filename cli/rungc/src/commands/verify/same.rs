@@ -9,7 +9,7 @@ use crate::commands::check::deep::writes;
 use crate::commands::properties::{Reader, module};
 use crate::commands::subject;
 use crate::commands::{Context, Failure, Outcome, Result, counted, read};
-use crate::report::junit::{Case, Problem, Properties, properties};
+use crate::report::junit::{self, Case, Problem, Properties, properties};
 use crate::report::{Findings, Reporter, location};
 use rungc_evidence::Evidence;
 use rungc_ir::Module;
@@ -242,7 +242,10 @@ fn case(output: &Output, file: &str, names: &[String; 2], module: &Module) -> Ca
         }
         report::gaps(&mut text, &output.gaps);
         Problem {
-            is_error: matches!(output.verdict, Verdict::Undecided(_)),
+            result: match output.verdict {
+                Verdict::Undecided(_) => junit::Result::Error,
+                _ => junit::Result::Failed,
+            },
             kind: code.name,
             text: text.trim_end().to_string(),
             message,

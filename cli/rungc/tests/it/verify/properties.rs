@@ -299,6 +299,62 @@ fn a_property_of_what_nothing_drives_has_a_warning() {
     assert_eq!(warned("Y000 & X005 & !M5", &[]), "");
 }
 
+/// A tool finds the verdicts where they are without a warning.
+#[test]
+fn a_warning_and_verdicts_are_one_report() {
+    let folder = folder(&[("p.il", b"LD X000\nOUT Y000\nEND\n")]);
+    let shown = |format: &str| {
+        let args = [
+            "verify",
+            "p.il",
+            "--never",
+            "Y000 & M500",
+            "--format",
+            format,
+        ];
+        text(&rungc(folder.path(), &args).stdout)
+    };
+    let report: serde_json::Value = serde_json::from_str(&shown("json")).unwrap();
+    let codes = report["diagnostics"].as_array().unwrap().iter();
+    let codes: Vec<_> = codes.map(|found| found["code"].clone()).collect();
+    assert_eq!(codes, ["W0802", "E0800"]);
+    assert_eq!(report["warnings"], 1);
+    assert_eq!(report["errors"], 1);
+    assert_eq!(report["verification"]["report"], "rungc verify");
+    let junit = shown("junit");
+    assert_eq!(junit.matches("<testcase ").count(), 1, "{junit}");
+}
+
+/// An assessor who reads the results of tests finds the requirements that tests do not cover.
+#[test]
+fn tests_name_the_properties_that_they_leave_to_proofs() {
+    let settings = "[project]\nprogram = \"p.il\"\n[test]\nfiles = [\"t.plctest.toml\"]\n\
+                    [[property]]\nid = \"R1\"\ntext = \"Interlock\"\nnever = \"Y000 & Y001\"\n\
+                    [[property]]\nreachable = \"Y000\"\n";
+    let test = "topic = \"t\"\nmodel = \"fx3u\"\nprogram = { file = \"p.il\" }\n\
+                [[case]]\nname = \"on\"\n[[case.step]]\nset = { X000 = 1 }\nexpect = { Y000 = 1 }\n";
+    let folder = folder(&[
+        ("p.il", b"LD X000\nOUT Y000\nLDI X000\nOUT Y001\nEND\n"),
+        ("rungc.toml", settings.as_bytes()),
+        ("t.plctest.toml", test.as_bytes()),
+    ]);
+    let shown = |format: &str| {
+        let output = rungc(folder.path(), &["test", "--format", format]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let report: serde_json::Value = serde_json::from_str(&shown("json")).unwrap();
+    insta::assert_snapshot!(report["untested"], @r#"[{"property":"never Y000 & Y001","requirement":"R1"},{"property":"reachable Y000"}]"#);
+    let junit = shown("junit");
+    let suite = junit.find("name=\"rungc.toml\"").unwrap();
+    let suite = &junit[suite..];
+    assert!(
+        suite.contains("skipped=\"2\"") && suite.contains("value=\"R1\""),
+        "{junit}"
+    );
+    assert_eq!(suite.matches("<skipped message=").count(), 2, "{junit}");
+}
+
 /// The same property twice, and a device that the program writes and something else, too (P11, P12).
 #[test]
 fn a_written_test_is_read_again_and_fails() {
