@@ -68,6 +68,7 @@ impl EdgeKind {
 #[cfg(test)]
 mod tests {
     use super::{Edge, next_step};
+    use std::vec::Vec;
 
     #[test]
     fn blocks_run_while_their_states_are_on_and_once_more() {

@@ -109,7 +109,7 @@ pub(crate) fn suppose(system: &System, reduced: &mut Reduced, limit: &Limit) -> 
     let lags = system.lags.iter().filter(|lag| lag.is_in(system));
     let mut candidates: Vec<Candidate> = Vec::new();
     for &lag in lags {
-        let [now, next] = reduced.both(system, &|aig, of| lag.holds(system, aig, of));
+        let [now, next] = reduced.both(system, |aig, of| lag.holds(system, aig, of));
         if now != Lit::TRUE {
             candidates.push(Candidate { lag, now, next });
         }

@@ -39,7 +39,7 @@ impl Reduced {
     pub fn both(
         &mut self,
         original: &System,
-        states: &dyn Fn(&mut Aig, &dyn Fn(usize) -> Lit) -> Lit,
+        states: impl Fn(&mut Aig, &dyn Fn(usize) -> Lit) -> Lit,
     ) -> [Lit; 2] {
         let nodes = &self.nodes;
         let of = |lit: Lit| nodes[lit.node()].invert_if(lit.is_inverted());

@@ -7,7 +7,7 @@ use rungc_sim::plctest::{Failure, Outcome, Report, Suite, Value};
 use rungc_syntax::diag::counted;
 use serde::Serialize;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// Cases that ran, and their results.
