@@ -8,7 +8,7 @@ use rungc_ir::Module;
 use rungc_rt::TimerKind;
 use rungc_runtime_sources::{EMITTED_VERSION, HOST_FOLDER};
 use rungc_syntax::text::one_line;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 /// Lines of functions that one file holds.
@@ -180,21 +180,26 @@ fn imports(uses: &Uses) -> String {
     };
     names.extend(modules.as_deref());
     names.extend(word.as_deref());
-    match names.as_slice() {
-        [] => {}
-        [one] => out.push_str(&format!("use rungc_rt::{one};\n")),
+    out.push_str(&import("rungc_rt", &names));
+    out
+}
+
+/// The declaration that imports names of a module, laid out as rustfmt does; empty if there are none.
+fn import(module: &str, names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => format!("use {module}::{one};\n"),
         more => {
-            let list = more.join(", ");
-            if list.len() <= LINE - "use rungc_rt::{};".len() {
-                out.push_str(&format!("use rungc_rt::{{{list}}};\n"));
-            } else {
-                out.push_str("use rungc_rt::{\n");
-                fill(&mut out, more);
-                out.push_str("};\n");
+            let list = format!("use {module}::{{{}}};\n", more.join(", "));
+            if list.len() <= LINE {
+                return list;
             }
+            let mut out = format!("use {module}::{{\n");
+            fill(&mut out, more);
+            out.push_str("};\n");
+            out
         }
     }
-    out
 }
 
 /// Names one after the other, as many on a line as fit, laid out as rustfmt does.
@@ -387,17 +392,25 @@ fn program_files(generator: &Generator, functions: Vec<Item>) -> Vec<OutFile> {
     }
     root.push_str(&timer_constants(&uses.timers, ""));
     let mut files = vec![OutFile::new("src/program/mod.rs", root)];
+    let defined: Vec<Vec<&str>> = parts.iter().map(|part| defined(part)).collect();
     for (i, part) in parts.iter().enumerate() {
         let mut uses = joined(part);
         uses.imports.remove("TimerKind");
+        let others = defined.iter().enumerate().filter(|(other, _)| *other != i);
+        let mut shared: BTreeSet<&str> = others.flat_map(|(_, names)| names).copied().collect();
+        shared.extend(uses.timers.keys().map(String::as_str));
+        let words = words(part);
+        shared.retain(|name| words.contains(name));
+        let shared: Vec<&str> = shared.into_iter().collect();
         let from_crate = if uses.devices {
             format!("use crate::{{{type_name}, devices::DEVICES}};\n")
         } else {
             format!("use crate::{type_name};\n")
         };
         let mut out = format!(
-            "{}use super::*;\n{from_crate}{}",
+            "{}{}{from_crate}{}",
             "//! A part of the program.\n\n",
+            import("super", &shared),
             imports(&uses)
         );
         for item in part {
@@ -407,6 +420,20 @@ fn program_files(generator: &Generator, functions: Vec<Item>) -> Vec<OutFile> {
         files.push(OutFile::new(format!("src/program/part{i}.rs"), out));
     }
     files
+}
+
+/// The names of the functions that items define.
+fn defined(items: &[Item]) -> Vec<&str> {
+    let lines = items.iter().flat_map(|item| item.text.lines());
+    let functions = lines.filter_map(|line| line.strip_prefix("fn ")?.split(['(', '<']).next());
+    functions.collect()
+}
+
+/// The words of items.
+fn words(items: &[Item]) -> BTreeSet<&str> {
+    let is_between = |c: char| !c.is_alphanumeric() && c != '_';
+    let words = items.iter().flat_map(|item| item.text.split(is_between));
+    words.collect()
 }
 
 /// Lints of clippy that verbose programs trigger.

@@ -331,13 +331,20 @@ fn save(keeps: bool, unsaved: Option<(DeviceClass, u32)>) -> String {
         return String::new();
     }
     let device = unsaved.and_then(|(class, number)| Some((rt_class(class)?, number)));
-    let show = device.map(|(class, number)| {
-        format!("            let _ = plc.set_bit(Class::{class:?}, {number}, file.fails());\n")
-    });
-    SAVE.replace("            SHOW;\n", &show.unwrap_or_default())
+    device.map_or(SAVE.to_string(), |(class, number)| {
+        let show = format!("let _ = plc.set_bit(Class::{class:?}, {number}, file.fails());");
+        SAVE_AND_SHOW.replace("SHOW;", &show)
+    })
 }
 
-const SAVE: &str = "        if let Some(file) = &mut retained {
+const SAVE: &str = "        if let Some(file) = &mut retained
+            && let Some(message) = file.keep(&plc, now_ms)
+        {
+            report(&message);
+        }
+";
+
+const SAVE_AND_SHOW: &str = "        if let Some(file) = &mut retained {
             if let Some(message) = file.keep(&plc, now_ms) {
                 report(&message);
             }

@@ -3,23 +3,51 @@
 use crate::common;
 use crate::common::{cargo, write};
 use rungc_codegen_rust::{Options, batch, emit};
+use rungc_ir::Module;
+use std::fmt::Write as _;
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Command, Stdio};
 
 #[test]
 fn a_program_builds_without_warnings() {
-    let folder = tempfile::tempdir().unwrap();
-    let options = Options {
-        main: true,
-        servers: false,
-        io: false,
-        unsaved: None,
-        defmt: false,
-        runtime: common::runtime(),
-    };
-    write(folder.path(), &emit(&common::motor(), &options));
-    cargo(folder.path(), &["clippy"]);
-    cargo(folder.path(), &["build"]);
+    for module in [common::motor(), long()] {
+        let folder = tempfile::tempdir().unwrap();
+        let options = Options {
+            main: true,
+            servers: false,
+            io: false,
+            unsaved: None,
+            defmt: false,
+            runtime: common::runtime(),
+        };
+        write(folder.path(), &emit(&module, &options));
+        cargo(folder.path(), &["clippy"]);
+        cargo(folder.path(), &["build"]);
+    }
+}
+
+/// A program of several files, with functions and timers that some of them share.
+fn long() -> Module {
+    let mut list = String::new();
+    for n in 0..600_u32 {
+        let bits = n.wrapping_mul(2_654_435_761) >> 20;
+        let _ = writeln!(list, "LD M{}", bits % 500);
+        for at in 0..3 {
+            let word = ["AND", "ANI", "OR", "ORI"][(bits >> (2 * at)) as usize % 4];
+            let _ = writeln!(list, "{word} M{}", (bits + 37 * at) % 500);
+        }
+        let _ = match n % 50 {
+            10 => writeln!(list, "OUT T{} K{}", n / 50, 1 + bits % 90),
+            20 => writeln!(list, "CALL P{}", n / 300),
+            _ => writeln!(list, "OUT M{}", 500 + n),
+        };
+    }
+    list.push_str("FEND\nP0\nLD X000\nOUT Y000\nSRET\nP1\nLDP X001\nINC D0\nSRET\nEND\n");
+    let module = common::compiled("long", &list);
+    let files = emit(&module, &Options::default());
+    let parts = files.iter().filter(|file| file.path.contains("/part"));
+    assert!(parts.count() > 2);
+    module
 }
 
 /// Program that uses a crate whose instructions fail: first at an index, then at a division, and at last the watchdog
