@@ -132,7 +132,7 @@ fn names_cpu(field: &str) -> bool {
 /// The CPU in the first field of a row: after a label in the same field, or alone with the word for its family.
 fn in_first(field: &str) -> Option<&str> {
     let labelled = field.split_once([':', '：']);
-    if let Some((label, cpu)) = labelled {
+    if let Some((label, cpu)) = labelled.filter(|(label, _)| !label.trim().is_empty()) {
         let is_usual = label.to_ascii_uppercase().starts_with("PLC INF");
         return (is_usual || names_cpu(cpu)).then_some(cpu.trim());
     }

@@ -89,7 +89,8 @@ fn instr() -> impl Strategy<Value = Instr> {
 
 prop_compose! {
     fn program()(
-        title in comment(),
+        // A row with a colon may name the CPU.
+        title in comment().prop_filter("title", |title| !title.iter().any(|title| title.contains([':', '：']))),
         cpu in option::of("FX[0-46-9A-Z/][0-9A-Z/]{0,9}"),
         instrs in vec(instr(), 0..20),
         comments in btree_map(device(), text().prop_filter("clean", |t| !t.is_empty() && t.trim() == t), 0..5),
