@@ -396,12 +396,6 @@ fn program_files(generator: &Generator, functions: Vec<Item>) -> Vec<OutFile> {
     for (i, part) in parts.iter().enumerate() {
         let mut uses = joined(part);
         uses.imports.remove("TimerKind");
-        let others = defined.iter().enumerate().filter(|(other, _)| *other != i);
-        let mut shared: BTreeSet<&str> = others.flat_map(|(_, names)| names).copied().collect();
-        shared.extend(uses.timers.keys().map(String::as_str));
-        let words = words(part);
-        shared.retain(|name| words.contains(name));
-        let shared: Vec<&str> = shared.into_iter().collect();
         let from_crate = if uses.devices {
             format!("use crate::{{{type_name}, devices::DEVICES}};\n")
         } else {
@@ -410,7 +404,7 @@ fn program_files(generator: &Generator, functions: Vec<Item>) -> Vec<OutFile> {
         let mut out = format!(
             "{}{}{from_crate}{}",
             "//! A part of the program.\n\n",
-            import("super", &shared),
+            import("super", &shared(i, part, &defined, &uses)),
             imports(&uses)
         );
         for item in part {
@@ -420,6 +414,23 @@ fn program_files(generator: &Generator, functions: Vec<Item>) -> Vec<OutFile> {
         files.push(OutFile::new(format!("src/program/part{i}.rs"), out));
     }
     files
+}
+
+/// The names that a part uses of the files beside it: timers, and functions of other parts, of which `defined` has the
+/// names.
+fn shared<'a>(
+    number: usize,
+    part: &[Item],
+    defined: &[Vec<&'a str>],
+    uses: &'a Uses,
+) -> Vec<&'a str> {
+    let others = defined.iter().enumerate();
+    let others = others.filter(|(other, _)| *other != number);
+    let mut names: BTreeSet<&str> = others.flat_map(|(_, names)| names).copied().collect();
+    names.extend(uses.timers.keys().map(String::as_str));
+    let words = words(part);
+    names.retain(|name| words.contains(name));
+    names.into_iter().collect()
 }
 
 /// The names of the functions that items define.
