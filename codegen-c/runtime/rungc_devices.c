@@ -14,13 +14,6 @@ typedef struct found {
 static const uint8_t device_size[] = {sizeof(bool), sizeof(int16_t), sizeof(plc_timer), sizeof(plc_counter16),
                                       sizeof(plc_counter32)};
 
-void *rungc_part_at(const rungc_map *map, size_t offset)
-{
-    uint8_t *const plc = map->plc;
-
-    return plc + offset;
-}
-
 /* The device in this area, if that stores it; otherwise `at` is NULL. */
 static found in_area(const rungc_map *map, const rungc_area *area, rungc_class device_class, uint32_t number)
 {

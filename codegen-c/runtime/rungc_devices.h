@@ -70,7 +70,12 @@ bool rungc_find_counter32(const rungc_map *map, uint32_t number, int32_t **value
 bool rungc_reset_device(const rungc_map *map, rungc_class device_class, uint32_t number);
 
 /* The part of the program's struct at an offset, of the type that the layout says. */
-void *rungc_part_at(const rungc_map *map, size_t offset);
+static inline void *rungc_part_at(const rungc_map *map, size_t offset)
+{
+    uint8_t *const plc = map->plc;
+
+    return plc + offset;
+}
 
 /* Time and mode. */
 const plc_sys *rungc_sys(const rungc_map *map);
