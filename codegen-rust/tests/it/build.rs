@@ -12,15 +12,7 @@ use std::process::{Command, Stdio};
 fn a_program_builds_without_warnings() {
     for module in [common::motor(), long()] {
         let folder = tempfile::tempdir().unwrap();
-        let options = Options {
-            main: true,
-            servers: false,
-            io: false,
-            unsaved: None,
-            defmt: false,
-            runtime: common::runtime(),
-        };
-        write(folder.path(), &emit(&module, &options));
+        write(folder.path(), &emit(&module, &common::options()));
         cargo(folder.path(), &["clippy"]);
         cargo(folder.path(), &["build"]);
     }
@@ -81,18 +73,10 @@ fn main() {
 #[test]
 fn a_program_keeps_its_last_error() {
     let folder = tempfile::tempdir().unwrap();
-    let options = Options {
-        main: true,
-        servers: false,
-        io: false,
-        unsaved: None,
-        defmt: false,
-        runtime: common::runtime(),
-    };
     let list = "LD X0\nMOV K30000 Z0\nMOV K1 D500Z0\nLD X1\nDIV D0 D1 D2\nP0\nLD X2\nCJ P0\nEND\n";
     write(
         folder.path(),
-        &emit(&common::compiled("errors", list), &options),
+        &emit(&common::compiled("errors", list), &common::options()),
     );
     let example = folder.path().join("examples");
     std::fs::create_dir(&example).unwrap();

@@ -1,7 +1,7 @@
 //! Names and comments with characters that would act on the emitted crate, its documentation or its manifest.
 
 use crate::common;
-use rungc_codegen_rust::{Options, emit};
+use rungc_codegen_rust::emit;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_syntax::text::acts;
@@ -31,21 +31,10 @@ fn module(source: &str) -> Module {
         .unwrap_or_else(|| panic!("{source}: {diagnostics:?}"))
 }
 
-fn options() -> Options {
-    Options {
-        main: true,
-        servers: false,
-        io: false,
-        unsaved: None,
-        defmt: false,
-        runtime: common::runtime(),
-    }
-}
-
 #[test]
 fn manifests_hold_any_name() {
     for name in NAMES {
-        let files = emit(&module(name), &options());
+        let files = emit(&module(name), &common::options());
         let manifest = files.iter().find(|file| file.path == "Cargo.toml").unwrap();
         let manifest: toml::Table = manifest.contents.parse().unwrap();
         let description = manifest["package"]["description"].as_str().unwrap();
@@ -58,7 +47,7 @@ fn manifests_hold_any_name() {
 #[test]
 fn nothing_that_acts_reaches_emitted_text() {
     for name in NAMES {
-        for file in emit(&module(name), &options()) {
+        for file in emit(&module(name), &common::options()) {
             let found = file.contents.find(|c| acts(c) && c != '\n');
             assert_eq!(found, None, "{}:\n{}", file.path, file.contents);
         }
@@ -68,7 +57,7 @@ fn nothing_that_acts_reaches_emitted_text() {
 #[test]
 fn hostile_comments_build_and_document_without_warnings() {
     let folder = tempfile::tempdir().unwrap();
-    common::write(folder.path(), &emit(&module(NAMES[3]), &options()));
+    common::write(folder.path(), &emit(&module(NAMES[3]), &common::options()));
     common::cargo(folder.path(), &["check"]);
     common::cargo(folder.path(), &["doc", "--no-deps"]);
 }

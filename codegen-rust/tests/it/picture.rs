@@ -6,11 +6,8 @@ use rungc_codegen_rust::{Options, Runtime, emit};
 fn emitted(path: &str) -> String {
     let options = Options {
         main: true,
-        servers: false,
-        io: false,
-        unsaved: None,
-        defmt: false,
         runtime: Runtime::At("../runtime-rt".to_string()),
+        ..Options::default()
     };
     let files = emit(&common::motor(), &options);
     let file = files.into_iter().find(|file| file.path == path);

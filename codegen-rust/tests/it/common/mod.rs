@@ -1,6 +1,6 @@
 //! A module made by hand, and what builds emitted crates.
 
-use rungc_codegen_rust::{OutFile, Runtime};
+use rungc_codegen_rust::{Options, OutFile, Runtime};
 use rungc_ir::layout::Area;
 use rungc_ir::node::*;
 use rungc_lower::compile::{CompileOptions, compile};
@@ -180,6 +180,15 @@ pub fn motor() -> Module {
         }),
     ];
     b.main(body)
+}
+
+/// Options of a crate with a main program.
+pub fn options() -> Options {
+    Options {
+        main: true,
+        runtime: runtime(),
+        ..Options::default()
+    }
 }
 
 /// A list compiled for H2U.
