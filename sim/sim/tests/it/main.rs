@@ -3,5 +3,6 @@
 mod plant;
 mod program_files;
 mod runner;
+mod session;
 mod settings;
 mod test_files;
