@@ -1,15 +1,15 @@
 //! A program in the interpreter with a partner on one of its serial ports.
 
-use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
 use rungc_rt::comm::Received;
-use rungc_rt::{Class, Plc as _, Program as _, VirtualHal};
+use rungc_rt::{Class, Plc as _, VirtualHal};
+use rungc_sim::Session;
 use rustix::time::{ClockId, clock_gettime};
 
-/// A scan begins every so often; ports are advanced every millisecond.
-const SCAN_US: u64 = 10_000;
+/// Duration of a scan; ports are advanced every millisecond.
+const SCAN_MS: u64 = 10;
 
 /// Compiles a program with all devices of the model and a port, for good.
 pub fn module(model: ModelId, port: u8, text: &str) -> &'static Module {
@@ -30,12 +30,10 @@ pub fn module(model: ModelId, port: u8, text: &str) -> &'static Module {
 
 /// A running program and one of its ports.
 pub struct Plc {
-    machine: Machine<'static>,
-    hal: Box<VirtualHal>,
+    session: Session<'static>,
     port: u8,
     /// Microseconds since power-on.
     now_us: u64,
-    next_us: u64,
     /// The longest that a call has taken which advanced the ports, in nanoseconds of the processor's time.
     pub longest_ns: u64,
 }
@@ -50,14 +48,12 @@ impl Plc {
     /// Powers on, and runs the scans that set up the port.
     pub fn new(module: &'static Module, port: u8) -> Self {
         let mut plc = Plc {
-            machine: Machine::new(module),
-            hal: Box::new(VirtualHal::new()),
+            session: Session::new(module, VirtualHal::new()),
             port,
             now_us: 0,
-            next_us: 0,
             longest_ns: 0,
         };
-        plc.wait(4 * SCAN_US);
+        plc.wait(4000 * SCAN_MS);
         plc.sent();
         plc
     }
@@ -65,23 +61,19 @@ impl Plc {
     /// Time passes.
     pub fn wait(&mut self, us: u64) {
         self.now_us += us;
-        while self.next_us <= self.now_us {
-            let now_ms = (self.next_us / 1000) as u32;
-            self.hal.advance_to(now_ms);
+        while self.session.now_ms() < self.now_us / 1000 {
             let before = used_ns();
-            if self.next_us.is_multiple_of(SCAN_US) {
-                self.machine.scan(&mut *self.hal, now_ms, SCAN_US as u32);
-            } else {
-                self.machine.tick(&mut *self.hal, now_ms);
+            if self.session.now_ms().is_multiple_of(SCAN_MS) {
+                self.session.scan(SCAN_MS);
             }
+            self.session.pass(1);
             self.longest_ns = self.longest_ns.max(used_ns() - before);
-            self.next_us += 1000;
         }
     }
 
     /// Duration of a character.
     fn character_us(&mut self) -> u64 {
-        let line = self.hal.line(self.port);
+        let line = self.session.parts().1.line(self.port);
         line.map_or(1000, |line| line.format().character_us().into())
     }
 
@@ -95,7 +87,8 @@ impl Plc {
                 byte,
                 ..Received::new()
             };
-            let line = self.hal.line(self.port).expect("the port is there");
+            let (_, hal) = self.session.parts();
+            let line = hal.line(self.port).expect("the port is there");
             line.feed(character)
                 .expect("the PLC takes characters in time");
         }
@@ -104,7 +97,8 @@ impl Plc {
     /// Characters sent by the PLC so far.
     pub fn sent(&mut self) -> Vec<u8> {
         let now_us = self.now_us as u32;
-        let line = self.hal.line(self.port).expect("the port is there");
+        let (_, hal) = self.session.parts();
+        let line = hal.line(self.port).expect("the port is there");
         std::iter::from_fn(|| line.take(now_us))
             .map(|character| character.byte)
             .collect()
@@ -128,7 +122,10 @@ impl Plc {
 
     /// Register D; `None` if the model does not have it.
     pub fn d(&self, number: u32) -> Option<u16> {
-        self.machine.word(Class::D, number).map(|word| word as u16)
+        self.session
+            .machine()
+            .word(Class::D, number)
+            .map(|word| word as u16)
     }
 
     /// All relays, states and outputs below special devices.
@@ -137,12 +134,12 @@ impl Plc {
         let bits = classes
             .into_iter()
             .flat_map(|(class, count)| (0..count).map(move |n| (class, n)));
-        bits.filter_map(|(class, n)| self.machine.bit(class, n))
+        bits.filter_map(|(class, n)| self.session.machine().bit(class, n))
             .collect()
     }
 
     /// The program's devices, for a server.
-    pub fn devices(&mut self) -> &mut Machine<'static> {
-        &mut self.machine
+    pub fn devices(&mut self) -> &mut rungc_interp::Machine<'static> {
+        self.session.machine_mut()
     }
 }

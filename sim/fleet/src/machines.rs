@@ -1,9 +1,9 @@
 //! Interpreters, for programs that do not run in lanes.
 
 use crate::engine::{At, Engine, Failed, FleetError};
-use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_rt::{Class, FIRST_COUNTER32, Plc, Program, Stop, VirtualHal};
+use rungc_sim::Session;
 use rungc_sim::threads::Threads;
 use std::thread;
 
@@ -12,53 +12,34 @@ const WORTH_THREADS: usize = 16;
 
 /// PLCs, each an interpreter with its own virtual hardware.
 pub struct Machines<'m> {
-    plcs: Vec<One<'m>>,
+    plcs: Vec<Session<'m>>,
     now_ms: u32,
-}
-
-struct One<'m> {
-    machine: Machine<'m>,
-    hal: VirtualHal,
 }
 
 impl<'m> Machines<'m> {
     /// Switches `count` PLCs on, each with its own copy of the hardware.
     pub fn new(module: &'m Module, count: u32, hal: &VirtualHal) -> Self {
-        let one = |_| One {
-            machine: Machine::new(module),
-            hal: hal.clone(),
-        };
+        let one = |_| Session::new(module, hal.clone());
         Machines {
             plcs: (0..count).map(one).collect(),
             now_ms: 0,
         }
     }
 
-    fn one(&self, plc: u32) -> Option<&One<'m>> {
+    fn one(&self, plc: u32) -> Option<&Session<'m>> {
         self.plcs.get(plc as usize)
-    }
-}
-
-impl One<'_> {
-    /// The time until the scan passes, then the scan.
-    fn scan(&mut self, before_ms: u32, now_ms: u32, scan_us: u32) {
-        let passed = now_ms.wrapping_sub(before_ms);
-        for ms in 1..=passed {
-            let at = before_ms.wrapping_add(ms);
-            self.hal.advance_to(at);
-            self.machine.tick(&mut self.hal, at);
-            self.machine.take_interrupts(&mut self.hal);
-        }
-        self.hal.scan(&mut self.machine, now_ms, scan_us);
     }
 }
 
 impl Engine for Machines<'_> {
     fn begin_scan(&mut self, now_ms: u32, scan_us: u32) {
         let before_ms = std::mem::replace(&mut self.now_ms, now_ms);
-        let scan = |plcs: &mut [One]| {
-            plcs.iter_mut()
-                .for_each(|one| one.scan(before_ms, now_ms, scan_us));
+        let passed_ms = now_ms.wrapping_sub(before_ms);
+        let scan = |plcs: &mut [Session]| {
+            for plc in plcs {
+                plc.pass(passed_ms.into());
+                plc.scan_us(scan_us);
+            }
         };
         let jobs = Threads::usual().count();
         if self.plcs.len() < WORTH_THREADS || jobs == 1 {
@@ -77,7 +58,7 @@ impl Engine for Machines<'_> {
     }
 
     fn read(&mut self, plc: u32, at: At) -> Option<i32> {
-        let machine = &self.one(plc)?.machine;
+        let machine = self.one(plc)?.machine();
         match at.class {
             Class::X | Class::Y | Class::M | Class::S => {
                 machine.bit(at.class, at.number).map(i32::from)
@@ -89,7 +70,7 @@ impl Engine for Machines<'_> {
     }
 
     fn write(&mut self, plc: u32, at: At, value: i32) -> Option<()> {
-        let One { machine, hal } = self.plcs.get_mut(plc as usize)?;
+        let (machine, hal) = self.plcs.get_mut(plc as usize)?.parts();
         let (class, number) = (at.class, at.number);
         match class {
             Class::X | Class::Y | Class::M | Class::S => {
@@ -107,29 +88,28 @@ impl Engine for Machines<'_> {
     }
 
     fn is_running(&mut self, plc: u32) -> bool {
-        self.one(plc).is_some_and(|one| one.machine.sys().running)
+        self.one(plc).is_some_and(|one| one.machine().sys().running)
     }
 
     fn set_running(&mut self, plc: u32, running: bool) -> bool {
         let one = self.plcs.get_mut(plc as usize);
         one.is_some_and(|one| {
-            one.machine.set_running(running);
-            one.hal.set_running(running);
+            one.set_running(running);
             true
         })
     }
 
     fn failures(&mut self) -> Vec<Failed> {
-        let of = |(plc, one): (usize, &One)| {
+        let of = |(plc, one): (usize, &Session)| {
             let plc = plc as u32;
-            let errors = one.machine.errors().iter().map(move |error| Failed {
+            let errors = one.machine().errors().iter().map(move |error| Failed {
                 plc,
                 code: error.code,
                 step: error.step,
                 times: error.times,
                 first_ms: Some(error.first_ms),
             });
-            let last = one.machine.last_error();
+            let last = one.machine().last_error();
             let stopped = (last.stop == Stop::Watchdog).then(|| Failed {
                 plc,
                 code: last.stop as u16,

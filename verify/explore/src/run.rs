@@ -2,11 +2,12 @@
 
 use crate::task::{Kind, Step, Task, What};
 use crate::trains::{changes, left_off};
-use rungc_interp::{Machine, Saved};
+use rungc_interp::Machine;
 use rungc_rt::{Class, Plc, Program, VirtualHal};
 use rungc_sim::Target;
-use rungc_sim::plant::{Plant, Wired};
+use rungc_sim::plant::Plant;
 use rungc_sim::property::{Monitor, Watcher, read};
+use rungc_sim::session::{self, Session};
 use rungc_sim::wire::Change;
 use rungc_syntax::DeviceClass;
 use std::collections::VecDeque;
@@ -21,18 +22,13 @@ pub const POWER: usize = usize::MAX;
 /// A program that runs.
 pub struct Runner<'t> {
     task: &'t Task<'t>,
-    machine: Machine<'t>,
-    /// Large, so not on the stack.
-    hal: Box<VirtualHal>,
-    plant: Option<Plant>,
+    session: Session<'t>,
     watchers: Vec<Watcher<'t>>,
     assumed: Monitor<'t>,
     inputs: Vec<i32>,
     /// Pulses of the step that has begun; their times are since power-on.
     coming: VecDeque<Change>,
-    /// Milliseconds since power-on.
-    now_ms: u64,
-    /// Milliseconds of the run until then, and how often the power supply has gone off.
+    /// Milliseconds of the run until power-on, and how often the power supply has gone off.
     before: (u64, i32),
     /// Duration of the last scan; `None` before the first.
     last_ms: Option<u32>,
@@ -51,14 +47,10 @@ pub struct Runner<'t> {
 /// A moment of a run, to come back to.
 #[derive(Clone)]
 pub struct Moment<'t> {
-    machine: Saved,
-    /// `None` if the program does not use it.
-    hal: Option<Box<VirtualHal>>,
-    plant: Option<Plant>,
+    session: session::Moment,
     watchers: Vec<Watcher<'t>>,
     assumed: Monitor<'t>,
     inputs: Vec<i32>,
-    now_ms: u64,
     before: (u64, i32),
     last_ms: Option<u32>,
     constant_ms: u32,
@@ -80,16 +72,9 @@ pub enum Scanned {
 impl<'t> Runner<'t> {
     /// The program at power-on. Fails if the machine has a sensor at an input that the PLC does not have.
     pub fn new(task: &'t Task<'t>) -> Result<Self, String> {
-        let mut machine = Machine::new(&task.noting);
-        let mut hal = task.hal.clone();
-        let mut plant = task.machine.map(|machine| machine.plant());
-        if let Some(plant) = &mut plant {
-            let mut wired = Wired {
-                machine: &mut machine,
-                hal: &mut hal,
-                changed: &mut |_| Ok::<_, String>(()),
-            };
-            wired.connect(plant)?;
+        let mut session = Session::new(&task.noting, (*task.hal).clone());
+        if let Some(machine) = task.machine {
+            session.connect(machine.plant())?;
         }
         let module = task.module;
         let areas = module.layout.areas.iter();
@@ -98,14 +83,11 @@ impl<'t> Runner<'t> {
         let outputs = outputs.filter(|output| !module.pulse_outputs.contains(output));
         Ok(Runner {
             task,
-            machine,
-            hal,
-            plant,
+            session,
             watchers: task.properties.iter().map(Watcher::new).collect(),
             assumed: Monitor::new(task.assumed),
             inputs: vec![0; task.inputs.len()],
             coming: VecDeque::new(),
-            now_ms: 0,
             before: (0, 0),
             last_ms: None,
             takes_events: module.takes_events(),
@@ -119,22 +101,22 @@ impl<'t> Runner<'t> {
 
     /// The PLC.
     pub fn machine(&self) -> &Machine<'t> {
-        &self.machine
+        self.session.machine()
     }
 
     /// The PLC's hardware.
     pub fn hal(&self) -> &VirtualHal {
-        &self.hal
+        self.session.hal()
     }
 
     /// The machine around it.
     pub fn plant(&self) -> Option<&Plant> {
-        self.plant.as_ref()
+        self.session.plant()
     }
 
     /// Milliseconds since the run began.
     pub fn now_ms(&self) -> u64 {
-        self.before.0 + self.now_ms
+        self.before.0 + self.session.now_ms()
     }
 
     /// Number of power cycles.
@@ -160,13 +142,13 @@ impl<'t> Runner<'t> {
     /// The state now.
     pub fn save(&self) -> Moment<'t> {
         Moment {
-            machine: self.machine.save(),
-            hal: self.uses_hal.then(|| self.hal.clone()),
-            plant: self.plant.clone(),
+            session: match self.uses_hal {
+                true => self.session.save(),
+                false => self.session.save_without_hardware(),
+            },
             watchers: self.watchers.clone(),
             assumed: self.assumed.clone(),
             inputs: self.inputs.clone(),
-            now_ms: self.now_ms,
             before: self.before,
             last_ms: self.last_ms,
             constant_ms: self.constant_ms,
@@ -177,15 +159,10 @@ impl<'t> Runner<'t> {
 
     /// Goes back to a state.
     pub fn restore(&mut self, moment: &Moment<'t>) {
-        self.machine.restore(&moment.machine);
-        if let Some(hal) = &moment.hal {
-            self.hal.clone_from(hal);
-        }
-        self.plant.clone_from(&moment.plant);
+        self.session.restore(&moment.session);
         self.watchers.clone_from(&moment.watchers);
         self.assumed.clone_from(&moment.assumed);
         self.inputs.clone_from(&moment.inputs);
-        self.now_ms = moment.now_ms;
         self.before = moment.before;
         self.last_ms = moment.last_ms;
         self.constant_ms = moment.constant_ms;
@@ -209,7 +186,7 @@ impl<'t> Runner<'t> {
         let mut coming = changes(task, step, &is_on);
         coming
             .iter_mut()
-            .for_each(|change| change.at_us += 1000 * self.now_ms);
+            .for_each(|change| change.at_us += 1000 * self.session.now_ms());
         self.coming.extend(coming);
         for input in left_off(task, &step.pulses) {
             self.inputs[input] = 0;
@@ -226,14 +203,7 @@ impl<'t> Runner<'t> {
             let before = std::mem::replace(&mut self.inputs[input], value);
             let target = self.task.inputs[input].target;
             // Each input exists: it was taken from the program's devices.
-            let _ = rungc_sim::set(&mut self.machine, &mut self.hal, target, value.into());
-            if let Target::Bit(DeviceClass::X, number) = target
-                && self.takes_events
-                && self.last_ms.is_some()
-                && before != value
-            {
-                self.machine.input_edge(&mut *self.hal, number, value != 0);
-            }
+            let _ = self.session.set(target, value.into());
             if before != value {
                 self.outputs.iter_mut().for_each(|(.., times)| *times = 0);
             }
@@ -243,7 +213,6 @@ impl<'t> Runner<'t> {
     /// Power off and on, as test files have it: latched devices and input terminals stay as they are.
     fn cycle_power(&mut self, times: i32) {
         self.before = (self.now_ms(), times);
-        self.now_ms = 0;
         self.last_ms = None;
         self.constant_ms = 0;
         self.errors = 0;
@@ -252,17 +221,9 @@ impl<'t> Runner<'t> {
         self.outputs
             .iter_mut()
             .for_each(|(_, on, times)| (*on, *times) = (false, 0));
-        self.hal.restart();
-        self.machine.power_cycle();
-        self.plant.iter_mut().for_each(Plant::power_cycle);
+        self.session.power_cycle();
         for (input, value) in self.task.inputs.iter().zip(&mut self.inputs) {
-            match input.target {
-                Target::Bit(DeviceClass::X, number) => {
-                    // It exists: it was taken from the program's devices.
-                    let _ = self.machine.set_bit(Class::X, number, *value != 0);
-                }
-                target => *value = read(&self.machine, target),
-            }
+            *value = read(self.session.machine(), input.target);
         }
     }
 
@@ -270,19 +231,18 @@ impl<'t> Runner<'t> {
     pub fn scan(&mut self, scan_ms: u32) -> Scanned {
         self.happened.clear();
         let scan_ms = scan_ms.max(self.constant_ms);
-        let scan_us = scan_ms.saturating_mul(1000);
-        self.hal
-            .scan(&mut self.machine, self.now_ms as u32, scan_us);
+        self.session.scan(scan_ms.into());
         let elapsed_ms = self.last_ms.replace(scan_ms).unwrap_or(0);
-        self.constant_ms = self.machine.constant_scan_ms().unwrap_or(0).into();
+        let constant_ms = self.session.machine().constant_scan_ms();
+        self.constant_ms = constant_ms.unwrap_or(0).into();
         // Events between two scans are evaluated as in test files, which read once the time has passed.
         if self.takes_events {
             self.pass(scan_ms);
         }
-        if !self.assumed.all_hold(&self.machine, elapsed_ms) {
+        let machine = self.session.machine();
+        if !self.assumed.all_hold(machine, elapsed_ms) {
             return Scanned::Excluded;
         }
-        let machine = &self.machine;
         for (number, watcher) in self.watchers.iter_mut().enumerate() {
             if watcher.happened(machine, elapsed_ms) {
                 self.happened.push(What::Property(number));
@@ -292,14 +252,14 @@ impl<'t> Runner<'t> {
         if !self.takes_events {
             self.pass(scan_ms);
         }
-        let broken = self.plant.as_ref().and_then(Plant::collision);
+        let broken = self.session.plant().and_then(Plant::collision);
         if let Some(collision) = broken
             && self.task.wants(Kind::Collisions)
         {
             let collision = What::Collision(collision.axis.clone());
             self.happened.push(collision);
         }
-        match broken.is_some() || !self.machine.sys().running {
+        match broken.is_some() || !self.session.machine().sys().running {
             true => Scanned::End,
             false => Scanned::Next,
         }
@@ -307,7 +267,7 @@ impl<'t> Runner<'t> {
 
     /// Notes what else has happened in a scan.
     fn notice(&mut self) {
-        let machine = &self.machine;
+        let machine = self.session.machine();
         let mut found = Vec::new();
         let errors = machine.errors();
         let new = errors.get(self.errors..).unwrap_or_default();
@@ -366,36 +326,23 @@ impl<'t> Runner<'t> {
 
     /// The time from one scan to the next.
     fn pass(&mut self, scan_ms: u32) {
-        if self.plant.is_none() && !self.takes_events {
-            self.now_ms += u64::from(scan_ms);
+        if self.session.plant().is_none() && !self.takes_events {
+            self.session.skip(scan_ms.into());
             return;
         }
         for _ in 0..scan_ms {
-            self.now_ms += 1;
-            self.hal.advance_to(self.now_ms as u32);
+            let next_us = 1000 * (self.session.now_ms() + 1);
             let mut others = Vec::new();
             while let Some(next) = self.coming.front()
-                && next.at_us < 1000 * self.now_ms
+                && next.at_us < next_us
             {
                 others.extend(self.coming.pop_front());
             }
-            let mut pulsed = Plant::default();
-            let plant = match &mut self.plant {
-                None if !others.is_empty() => Some(&mut pulsed),
-                plant => plant.as_mut(),
-            };
-            if let Some(plant) = plant {
-                let mut wired = Wired {
-                    machine: &mut self.machine,
-                    hal: &mut self.hal,
-                    changed: &mut |_| Ok::<_, String>(()),
-                };
-                // Nothing can go wrong: all sensors were connected at power-on.
-                let _ = plant.step(self.now_ms, &others, &mut wired);
-            }
+            // Nothing can go wrong: all sensors were connected at power-on.
+            let _ = self.session.advance(&others, &mut |_| Ok::<_, String>(()));
             if self.takes_events {
-                self.machine.tick(&mut *self.hal, self.now_ms as u32);
-                self.machine.take_interrupts(&mut *self.hal);
+                self.session.tick();
+                self.session.take_interrupts();
             }
         }
     }

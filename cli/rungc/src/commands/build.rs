@@ -4,7 +4,6 @@ mod fitting;
 mod library;
 mod runtime;
 
-use super::names::Names;
 use super::setting;
 use super::subject::{self, OutputPaths, Subject};
 use super::together::{Place, Together};
@@ -17,6 +16,7 @@ use crate::output::{at, file, plain, refuse_inputs, spare, write_executable, wri
 use crate::progress;
 use crate::report::Reporter;
 use fitting::fitting;
+use rungc::Names;
 use rungc_codegen_c::lanes;
 use rungc_codegen_rust::Runtime;
 use rungc_emit::OutFile;

@@ -6,7 +6,7 @@ pub(super) mod draw;
 use super::subject::{self, Subject};
 use super::{
     Context, Failure, Result, conclude, counted, findings, fix, grouped, ports, properties,
-    report_idle, unproven, unread, with_settings,
+    report_idle, unread, with_settings,
 };
 use crate::args::{CheckArgs, Properties};
 use crate::report::Reporter;
@@ -81,7 +81,7 @@ impl Checked {
     fn of(subject: &Subject, args: &CheckArgs) -> std::result::Result<Self, ReadError> {
         let start = Instant::now();
         let mut read = subject::source(subject)?;
-        unproven::suggest(&mut read, subject.model);
+        rungc::unproven::suggest(&mut read, subject.model);
         let completed = with_settings(subject, &mut read.program);
         let compiled = completed.map(|()| compile::check(&read.program, &subject.options()));
         let found = match &compiled {

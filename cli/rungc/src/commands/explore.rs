@@ -8,7 +8,7 @@ mod test_file;
 
 use super::check::draw;
 use super::properties::{Reader, RequestedProperty, at_writes, module, report_undriven};
-use super::run::{hardware, recording::Recording};
+use super::run::recording::Recording;
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, check_name, interruption, print_text, read};
 use crate::args::{ExploreArgs, Latched};
@@ -25,6 +25,7 @@ use rungc_sim::LoadError;
 use rungc_sim::plant;
 use rungc_sim::property::{Condition, Property};
 use rungc_sim::record::Seen;
+use rungc_sim::session;
 use rungc_sim::threads::Threads;
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Span, codes};
 use rungc_verify::replay::Change;
@@ -98,7 +99,7 @@ pub fn run(args: &ExploreArgs, cx: Context) -> Result {
         .collect();
     let fitted = read.program.parameters.as_ref();
     let fitted = fitted.map_or(&[][..], |parameters| &parameters.modules);
-    let hal = Box::new(hardware::of(fitted));
+    let hal = Box::new(session::hardware(fitted));
     let external: Vec<_> = external.devices.into_keys().collect();
     let mut task = Task::new(
         &module,

@@ -5,8 +5,6 @@ mod failures;
 mod memory;
 mod running;
 
-use super::names::Names;
-use super::run::hardware;
 use super::setting;
 use super::subject::{self, Subject};
 use super::{Context, Failure, Result, conclude, eprint_line, findings, read, stem};
@@ -14,6 +12,7 @@ use crate::args::{FleetArgs, Input};
 use crate::report::Reporter;
 use engine::Chosen;
 use failures::About;
+use rungc::Names;
 use rungc_fleet::{At, Choice, Engine, Fleet, Group, Machines, Plcs, Schedule, Setting, Written};
 use rungc_host::servers::cannot_serve;
 use rungc_host::wall::WallClock;
@@ -21,6 +20,7 @@ use rungc_ir::Module;
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_models::Model;
 use rungc_rt::comm::service::{ServerProtocol, Service};
+use rungc_sim::session;
 use rungc_syntax::codes::{self, FLEET_DEVICE, FLEET_ENGINE, FLEET_PORT};
 use rungc_syntax::{Diagnostic, FittedModule};
 use running::Fleets;
@@ -51,7 +51,7 @@ pub fn run(args: &FleetArgs, cx: Context) -> Result {
     let mut groups = Vec::new();
     for (plcs, compiled) in fleet.plcs.iter().zip(&compiled) {
         let folder = folder.path().join(groups.len().to_string());
-        let mut hal = hardware::of(&compiled.fitted);
+        let mut hal = session::hardware(&compiled.fitted);
         if !args.in_virtual_time {
             let _ = WallClock::begin(&mut hal);
         }

@@ -17,8 +17,6 @@ mod in_place;
 pub mod init;
 pub mod interruption;
 pub mod learn;
-pub mod names;
-mod other_model;
 mod ports;
 mod properties;
 pub mod read;
@@ -29,7 +27,6 @@ pub mod stats;
 pub mod subject;
 pub mod test;
 mod together;
-mod unproven;
 pub mod verify;
 pub mod view;
 pub mod xref;
@@ -37,8 +34,9 @@ pub mod xref;
 use crate::args::Format;
 use crate::output::write_file;
 use crate::report::{Findings, Reporter, Totals, visible};
+use rungc::other_model;
 use rungc_frontend::{Read, ReadError};
-use rungc_lower::compile::{self, CompileOptions, Compiled};
+use rungc_lower::compile::Compiled;
 pub use rungc_syntax::diag::{counted, grouped};
 use rungc_syntax::{Program, SourceKind, Span, codes, text};
 use std::io::{self, Write};
@@ -190,7 +188,7 @@ pub fn completed(
     subject: &Subject,
     reporter: &mut Reporter,
 ) -> std::result::Result<Read, Failure> {
-    unproven::suggest(&mut read, subject.model);
+    rungc::unproven::suggest(&mut read, subject.model);
     complete(subject, &mut read.program, reporter)?;
     Ok(read)
 }
@@ -215,12 +213,7 @@ fn with_settings(
     let Some(project) = &subject.project else {
         return Ok(());
     };
-    let options = CompileOptions {
-        model: subject.model,
-        ..CompileOptions::default()
-    };
-    let model = compile::model(program, &options);
-    project.complete(&subject.file, program, model)
+    rungc::settings::complete(project, &subject.file, program, subject.plc())
 }
 
 /// Reports that a program cannot be read.
@@ -312,7 +305,7 @@ pub fn found_reading<'a>(subject: &'a Subject, read: &'a Read) -> Findings<'a> {
 /// Findings of reading and compiling a program.
 pub fn findings<'a>(subject: &'a Subject, read: &'a Read, compiled: &Compiled) -> Findings<'a> {
     let mut diagnostics = read.diagnostics.clone();
-    diagnostics.refine(&other_model::joined(subject, read, compiled));
+    diagnostics.refine(&other_model::joined(&subject.options(), read, compiled));
     Findings {
         size: Some(compiled.into()),
         step_numbers: compiled.step_numbers.clone(),

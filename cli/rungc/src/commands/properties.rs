@@ -1,11 +1,12 @@
 //! Properties of a program from the command line and the settings of its project: for all commands that search for
 //! runs.
 
-use super::names::Names;
+use super::setting;
 use super::subject::{self, Subject};
 use super::{Context, Failure, findings};
 use crate::args::Properties;
 use crate::report::{Findings, Reporter};
+use rungc::Names;
 use rungc_analysis::resolve::resolve;
 use rungc_analysis::xref::{CrossReference, Reach, Use, UseKind};
 use rungc_frontend::Read;
@@ -195,7 +196,7 @@ impl Reader<'_> {
     /// Devices that may be written from outside the program, by the command line and the settings.
     pub fn external(&self) -> Result<ExternalWrites> {
         let names = Names::of(self.program);
-        let free = names.ranges("--free", &self.args.free)?;
+        let free = setting::ranges("--free", &self.args.free, &names)?;
         Ok(ExternalWrites::of(Some(&free), self.project()))
     }
 

@@ -3,7 +3,6 @@
 mod capture;
 mod connecting;
 mod errors;
-pub mod hardware;
 mod history;
 pub mod lines;
 mod live;
@@ -20,7 +19,6 @@ mod table;
 mod view;
 mod watch;
 
-use super::names::Names;
 use super::setting::{self, Setting, devices as observed};
 use super::subject::{self, Subject};
 use super::view::title;
@@ -34,6 +32,7 @@ use crate::report::Reporter;
 use live::Live;
 use recorder::Recorder;
 use retaining::RetainStorage;
+use rungc::Names;
 use rungc_analysis::check::devices::{self, Holds, Use};
 use rungc_frontend::{Read, image};
 use rungc_interp::rt_class;

@@ -1,12 +1,12 @@
 //! Devices that are set at a time: `X000=1@200ms`.
 
-use super::names::Names;
 use super::{Failure, eprint_line};
+use rungc::Names;
+use rungc::names::fits;
 use rungc_emit::events;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::Model;
 use rungc_models::runs::is_special;
-use rungc_project::device;
 use rungc_sim::Target;
 use rungc_sim::record::TEXT_LENGTH;
 use rungc_syntax::{DeviceClass, Program};
@@ -20,34 +20,6 @@ pub struct Setting {
     pub target: Target,
     /// To what.
     pub value: f64,
-}
-
-/// The greatest signal of a channel, in its unit.
-const MOST_SIGNAL: f64 = 2000.0;
-
-/// Reads what is watched or set.
-pub fn target(name: &str) -> std::result::Result<Target, String> {
-    let upper = upper(name);
-    if device::range(&name.trim().to_uppercase()).is_some_and(|(_, first, last)| first < last) {
-        return Err(format!("`{name}`: name one device"));
-    }
-    match Target::parse(&upper)? {
-        // A timer or counter is watched by its current value.
-        Target::Bit(class @ (DeviceClass::T | DeviceClass::C), n) => Ok(Target::Current(class, n)),
-        target => Ok(target),
-    }
-}
-
-/// Device letters in upper case, views (`.i32`) as they are.
-fn upper(name: &str) -> String {
-    let (device, view) = name
-        .trim()
-        .split_once('.')
-        .map_or((name.trim(), None), |(d, v)| (d, Some(v)));
-    let device = device.to_uppercase();
-    view.map_or(device.clone(), |view| {
-        format!("{device}.{}", view.to_lowercase())
-    })
 }
 
 /// Splits the lists that follow an option.
@@ -69,6 +41,21 @@ pub fn items<'t>(
         all.extend(items);
     }
     Ok(all)
+}
+
+/// Reads the ranges of an option, which may be repeated or has several, separated by commas.
+///
+/// # Errors
+/// The option, and what is wrong with a range.
+pub fn ranges(
+    option: &str,
+    lists: &[String],
+    names: &Names,
+) -> std::result::Result<Vec<(DeviceClass, u32, u32)>, Failure> {
+    let items = items(option, lists, names)?.into_iter();
+    let ranges = items.map(|text| names.range(text.trim()));
+    let ranges: std::result::Result<_, String> = ranges.collect();
+    ranges.map_err(|why| Failure::Because(format!("{option}: {why}")))
 }
 
 /// Checks that the device of a setting keeps its value; a register of the clock may do so, while a relay stops it.
@@ -190,36 +177,6 @@ fn number(text: &str) -> Option<f64> {
     match text.strip_prefix(['K', 'k']) {
         Some(digits) => digits.parse::<i64>().ok().map(|number| number as f64),
         None => text.parse().ok(),
-    }
-}
-
-/// Checks that a device can be set to a value; the error states the reason if not.
-pub fn fits(target: Target, value: f64) -> std::result::Result<(), String> {
-    let fits = match target {
-        Target::Float(..) => Target::is_float(value),
-        Target::Channel(_) => value.abs() <= MOST_SIGNAL,
-        Target::Text(..) => return Err("characters cannot be set here".to_string()),
-        Target::Pulses(_) | Target::Frequency(_) => {
-            return Err("only the program can send pulses".to_string());
-        }
-        Target::Bit(..)
-        | Target::Word(..)
-        | Target::Current(..)
-        | Target::Pair(..)
-        | Target::Nibbles(..) => {
-            let range = target.integers();
-            value.fract() == 0.0 && range.is_some_and(|range| range.contains(&(value as i64)))
-        }
-    };
-    let holds = match (target, target.integers()) {
-        (Target::Bit(..), _) => "is 0 or 1".to_owned(),
-        (_, Some(range)) => format!("holds integers from {} to {}", range.start(), range.end()),
-        (Target::Channel(_), None) => format!("is -{MOST_SIGNAL} to {MOST_SIGNAL}"),
-        (_, None) => "holds numbers of 32 bits: 0, or 1.4e-45 to 3.4e38".to_owned(),
-    };
-    match fits {
-        true => Ok(()),
-        false => Err(format!("`{value}` does not fit `{target}`, which {holds}")),
     }
 }
 

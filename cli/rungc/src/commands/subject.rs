@@ -3,14 +3,14 @@
 use super::{Context, Failure, Outcome, Result, counted, counts, eprint_line, interruption};
 use crate::args::{Format, Input, Inputs, Reading, Reporting};
 use crate::report::{Findings, Reporter, breaks_lines, visible_line};
+use rungc::settings;
 use rungc_firmware::board::BoardError;
 use rungc_frontend::ReadOptions;
 use rungc_lower::compile::CompileOptions;
 use rungc_models::{ModelId, Plc, Variant};
-use rungc_project::serve::Serve;
 use rungc_project::{Error, FILE, Project};
 use rungc_sim::threads::Threads;
-use rungc_syntax::{DeviceClass, Diagnostics, Program, codes};
+use rungc_syntax::{DeviceClass, Diagnostics, Program};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::ops::ControlFlow;
@@ -59,26 +59,21 @@ impl Subject {
 
     /// Options for compiling, by its settings.
     pub fn options(&self) -> CompileOptions {
-        let Reporting { warn, rules, .. } = &self.reporting;
-        let served = self.project.as_ref().map(|project| &project.serve);
-        let served = served.into_iter().flat_map(Serve::stored);
-        CompileOptions {
-            model: self.model,
+        let warn = &self.reporting.warn;
+        settings::compiling(self.project.as_deref(), &self.file, self.plc(), warn)
+    }
+
+    /// The PLC, if it is chosen.
+    pub fn plc(&self) -> Option<Plc> {
+        Some(Plc {
+            model: self.model?,
             variant: self.variant,
-            observe: served.chain(self.unsaved()).collect(),
-            warn: warn.iter().chain(&rules.warn).copied().collect(),
-            bounds: self
-                .project
-                .as_ref()
-                .map_or_else(Vec::new, |project| project.bounds(&self.file)),
-            ..CompileOptions::default()
-        }
+        })
     }
 
     /// `[retain] fault`: the bit that is on while latched devices cannot be saved.
     pub fn unsaved(&self) -> Option<(DeviceClass, u32)> {
-        let fault = self.project.as_ref()?.retain_fault.as_ref()?;
-        Some((fault.class, fault.first))
+        settings::unsaved(self.project.as_ref()?)
     }
 
     /// The settings of its project, if the project is about this program.
@@ -124,29 +119,15 @@ impl Projects<'_> {
         let project = self.of(if is_stdin { folder } else { &file })?;
         let mut reporting = self.reading.reporting.clone();
         if let Some(project) = &project {
-            reporting.rules = project.check.clone();
-            if !project.serve.modbus_tcp.is_empty() || project.has_server_requests() {
-                reporting.rules.allow.push(codes::ETHERNET_CARD.id);
-            }
+            reporting.rules = settings::rules(project);
         }
-        let mut options = self.reading.options();
-        if let Some(usual) = project.as_ref().map(|project| project.reading()) {
-            options.learned = usual.learned;
-            options.compiled_state = usual.compiled_state;
-            options.encoding = options.encoding.or(usual.encoding);
-            let given = std::mem::replace(&mut options.names, usual.names);
-            options.names.devices.extend(given.devices);
-            options.names.free.splice(0..0, given.free);
-        }
-        let of_project = |project: &Arc<Project>| {
-            let model = project.model?;
-            Some(Plc {
-                model,
-                variant: project.variant,
-            })
+        let options = self.reading.options();
+        let options = match &project {
+            Some(project) => settings::reading(project, options),
+            None => options,
         };
         let plc = self.reading.kind.model;
-        let plc = plc.or_else(|| project.as_ref().and_then(of_project));
+        let plc = plc.or_else(|| settings::plc(project.as_ref()?));
         Ok(Subject {
             file,
             model: plc.map(|plc| plc.model),
@@ -164,33 +145,11 @@ impl Projects<'_> {
             return Ok(path.to_owned());
         }
         let has_settings = self.reading.project.is_none() && path.join(FILE).is_file();
-        let settings = if has_settings { self.of(path)? } else { None };
-        let named = settings
-            .as_ref()
-            .and_then(|project| project.program.as_deref());
-        if let (Some(project), Some(program)) = (&settings, named) {
-            return match project.absent(program, project.program_span) {
-                Some(absent) => Err(refuse(absent, &self.reading.reporting, self.cx)),
-                None => Ok(path.join(program)),
-            };
-        }
-        if rungc_frontend::is_project(path) {
-            return Ok(path.to_owned());
-        }
-        match &programs_in(path)?[..] {
-            // Reported where it is read.
-            [] => Ok(path.to_owned()),
-            [one] => Ok(one.clone()),
-            [one, other, ..] => {
-                let [one, other] = [one, other].map(|path| path.display().to_string());
-                let (one, other) = (visible_line(&one), visible_line(&other));
-                let folder = path.display();
-                Err(Failure::Because(format!(
-                    "`{folder}` has several programs, such as `{one}` and `{other}`: name one of them, or set \
-                     `program` in `[project]` of its {FILE}"
-                )))
-            }
-        }
+        let own = if has_settings { self.of(path)? } else { None };
+        settings::program_in(path, own.as_deref()).map_err(|error| match error {
+            rungc::Error::Settings(error) => refuse(*error, &self.reading.reporting, self.cx),
+            error => Failure::Because(visible_line(&error.to_string()).into_owned()),
+        })
     }
 
     /// The program of the project that this folder belongs to.
@@ -210,14 +169,6 @@ impl Projects<'_> {
             ))
         })
     }
-}
-
-/// The programs in a folder and below, named as a shell would.
-fn programs_in(folder: &Path) -> std::result::Result<Vec<PathBuf>, Failure> {
-    let found = rungc_frontend::programs(folder, usize::MAX);
-    let found = found.map_err(|error| Failure::Because(error.to_string()))?;
-    let named = |path: PathBuf| path.strip_prefix(".").map_or(path.clone(), Path::to_owned);
-    Ok(found.into_iter().map(named).collect())
 }
 
 /// A path as seen from the current folder, where it lies below it.
@@ -333,7 +284,8 @@ fn all(inputs: &Inputs, cx: Context) -> std::result::Result<(Vec<Subject>, bool)
             files.push(file.clone());
             continue;
         }
-        let mut found = programs_in(file)?;
+        let found = settings::programs_in(file);
+        let mut found = found.map_err(|error| Failure::Because(error.to_string()))?;
         let names = found.iter().map(|path| path.to_string_lossy());
         if let Some(broken) = names.into_iter().find(|name| breaks_lines(name)) {
             let name = visible_line(&broken);

@@ -1,11 +1,12 @@
 //! `rungc view`.
 
-use super::names::Names;
+use super::setting;
 use super::subject::{self, OutputPaths, Subject, option_of};
 use super::{Context, Failure, Outcome, Result, found_reading, print_text, read_as_written, stem};
 use crate::args::ViewArgs;
 use crate::output::write_file;
 use crate::report::Reporter;
+use rungc::Names;
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_frontend::Read;
 use rungc_ladder::sfc::Chart;
@@ -104,7 +105,11 @@ fn devices(
     subject: &Subject,
     read: &Read,
 ) -> std::result::Result<Vec<Range>, Failure> {
-    Names::of(&read.program).ranges(&option_of("--device", subject), &args.device)
+    setting::ranges(
+        &option_of("--device", subject),
+        &args.device,
+        &Names::of(&read.program),
+    )
 }
 
 /// The networks that the arguments choose, with their numbers.

@@ -3,7 +3,7 @@
 mod html;
 mod table;
 
-use super::names::Names;
+use super::setting;
 use super::subject::{self, OutputPaths, Subject, option_of};
 use super::{
     Context, Failure, Outcome, Result, found_reading, print_bytes, print_text, read_as_written,
@@ -12,6 +12,7 @@ use super::{
 use crate::args::{XrefArgs, XrefTo};
 use crate::output::{self, write_file};
 use crate::report::Reporter;
+use rungc::Names;
 use rungc_analysis::resolve::resolve;
 use rungc_ladder::build;
 use rungc_lower::compile;
@@ -39,7 +40,7 @@ fn xref(
     let model = compile::model(program, &subject.options());
     let (resolved, _) = resolve(program, model);
     let names = Names::of(program);
-    let ranges = names.ranges(&option_of("--device", subject), &args.device)?;
+    let ranges = setting::ranges(&option_of("--device", subject), &args.device, &names)?;
     let table = Table::new(&resolved, &build::ladder(&resolved), &ranges);
     if table.devices.is_empty() && !args.device.is_empty() {
         let path = subject.file.display();

@@ -1,8 +1,8 @@
 //! Workflow commands of GitHub Actions, which mark places in the files of a change.
 
 use super::Findings;
-use super::location::{Location, named};
 use anstream::adapter::strip_str;
+use rungc::location::{Location, named};
 use rungc_syntax::Severity;
 use rungc_syntax::text::acts;
 use std::path::Path;
@@ -10,7 +10,7 @@ use std::path::Path;
 /// An annotation for each finding about a program.
 pub fn findings(findings: &Findings) -> String {
     let annotations = findings.diagnostics.iter().map(|d| {
-        let place = Location::of(findings, d.span).unwrap_or_default();
+        let place = findings.location(d.span).unwrap_or_default();
         let level = match d.severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
@@ -82,7 +82,7 @@ fn property(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::{annotation, data, property};
-    use crate::report::location::Location;
+    use rungc::location::Location;
     use std::path::Path;
 
     #[test]

@@ -7,10 +7,10 @@
 //! written into the margin.
 
 use super::Findings;
-use super::location::{Location, instr_at};
 use super::visible::{visible, visible_line};
 use super::window::Window;
 use ariadne::{Color, Config, Label, Report, ReportKind, Source};
+use rungc::location::instr_at;
 use rungc_syntax::{Diagnostic, Severity, Span};
 use std::io::{self, Write};
 use std::ops::Range;
@@ -85,9 +85,7 @@ fn draw(findings: &Findings, name: &str, d: &Diagnostic, color: bool) -> io::Res
     marks.sort_by_key(|mark| mark.span.start);
     let rows = rows(findings, &marks);
     let (source, labels) = excerpt(&rows);
-    let head = Location::of(findings, d.span)
-        .unwrap_or_default()
-        .headed(name);
+    let head = findings.location(d.span).unwrap_or_default().headed(name);
     let head = visible_line(&head);
     let heading = format!("{}[{}]", d.severity.name(), d.code);
     let mut report = Report::build(ReportKind::Custom(&heading, main), (&*head, 0..0))
@@ -135,7 +133,9 @@ fn rows<'a>(findings: &'a Findings, marks: &'a [Mark<'a>]) -> Vec<Row<'a>> {
         if !rows.last().is_some_and(|row| row.window.holds(start)) {
             let number = match list {
                 true => Some(program.source.line(mark.span.start)),
-                false => Location::of(findings, mark.span).and_then(|at| at.step.or(at.line)),
+                false => findings
+                    .location(mark.span)
+                    .and_then(|at| at.step.or(at.line)),
             };
             let text = &program.source.text;
             let instr = instr_at(program, mark.span.start).map(|at| program.instrs[at].span);

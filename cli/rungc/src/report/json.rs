@@ -1,15 +1,15 @@
 //! Diagnostics as one JSON object: of one program, or of several in its key `files`.
 
 use super::Findings;
-use super::location::{Location, named};
 use super::visible::to_json;
+use rungc::Diagnostic;
+use rungc::location::named;
 use rungc_analysis::check::ports::Setup;
 use rungc_evidence::Evidence;
 use rungc_firmware::report::Report as Takes;
 use rungc_rt::comm::{Parity, Protocol};
-use rungc_syntax::{Diagnostic, Severity, codes};
+use rungc_syntax::Severity;
 use serde::Serialize;
-use std::borrow::Cow;
 use std::io;
 
 /// All files.
@@ -32,7 +32,7 @@ pub struct File {
     errors: usize,
     warnings: usize,
     notes: usize,
-    diagnostics: Vec<Item>,
+    diagnostics: Vec<Diagnostic>,
     /// The serial ports that the program uses or sets up.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     ports: Vec<Port>,
@@ -84,66 +84,6 @@ impl From<&Setup> for Port {
     }
 }
 
-#[derive(Serialize)]
-struct Item {
-    code: &'static str,
-    name: &'static str,
-    severity: &'static str,
-    message: String,
-    #[serde(flatten)]
-    location: Option<Location>,
-    #[serde(skip_serializing_if = "str::is_empty")]
-    label: Cow<'static, str>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    related: Vec<Related>,
-    /// All devices that it is about, where the message names only some.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    devices: Vec<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    help: Option<Cow<'static, str>>,
-    /// The change of the text that the help proposes, where the source is a text.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    fix: Option<Proposal>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    plc_error: Option<u16>,
-}
-
-#[derive(Serialize)]
-struct Related {
-    message: String,
-    #[serde(flatten)]
-    location: Option<Location>,
-}
-
-#[derive(Serialize)]
-struct Proposal {
-    title: Cow<'static, str>,
-    /// True if `check --fix` applies it.
-    certain: bool,
-    edits: Vec<Replacement>,
-}
-
-#[derive(Serialize)]
-struct Replacement {
-    #[serde(flatten)]
-    location: Option<Location>,
-    /// The new text.
-    text: String,
-}
-
-fn proposal(findings: &Findings, d: &Diagnostic) -> Option<Proposal> {
-    let fix = findings.fix(d)?;
-    let edits = fix.edits.iter().map(|edit| Replacement {
-        location: Location::of(findings, edit.span),
-        text: edit.text.clone(),
-    });
-    Some(Proposal {
-        title: fix.title.clone(),
-        certain: fix.certain,
-        edits: edits.collect(),
-    })
-}
-
 /// Findings in one file.
 pub fn file(findings: &Findings) -> File {
     File {
@@ -156,26 +96,7 @@ pub fn file(findings: &Findings) -> File {
         diagnostics: findings
             .diagnostics
             .iter()
-            .map(|d| Item {
-                code: d.code,
-                name: codes::find(d.code).map_or("", |code| code.name),
-                severity: d.severity.name(),
-                message: d.message.clone(),
-                location: Location::of(findings, d.span),
-                label: d.label.clone(),
-                related: d
-                    .others
-                    .iter()
-                    .map(|o| Related {
-                        message: o.text.to_string(),
-                        location: Location::of(findings, o.span),
-                    })
-                    .collect(),
-                devices: d.devices.iter().map(ToString::to_string).collect(),
-                help: d.help.clone(),
-                fix: proposal(findings, d),
-                plc_error: d.plc_error,
-            })
+            .map(|d| Diagnostic::new(findings.path, findings.program, &findings.step_numbers, d))
             .collect(),
         ports: findings.ports.iter().map(Port::from).collect(),
         report: findings.takes.clone(),

@@ -1,10 +1,10 @@
 //! JUnit XML: suites of cases that passed, failed or could not be decided.
 
 use super::Findings;
-use super::location::{Location, named};
 use super::visible::visible_xml;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
+use rungc::location::named;
 use rungc_evidence::{Evidence, Verified};
 use rungc_syntax::Severity;
 use std::io;
@@ -74,7 +74,7 @@ pub fn of_errors(findings: &Findings) -> Suite {
     };
     let mut cases: Vec<Case> = errors
         .map(|d| {
-            let place = Location::of(findings, d.span).unwrap_or_default();
+            let place = findings.location(d.span).unwrap_or_default();
             let problem = Problem {
                 result: Result::Failed,
                 kind: d.code,

@@ -4,7 +4,6 @@ pub mod github;
 mod human;
 mod json;
 pub mod junit;
-pub mod location;
 pub mod sarif;
 mod visible;
 mod window;
@@ -13,11 +12,12 @@ pub use visible::{breaks_lines, to_json, visible, visible_line};
 
 use crate::args::{Format, Reporting};
 use crate::commands::{Context, Verbosity, counted, print_bytes};
+use rungc::location::{Location, named};
 use rungc_analysis::check::ports::Setup;
 use rungc_evidence::Evidence;
 use rungc_firmware::report::Report as Takes;
 use rungc_lower::compile::Compiled;
-use rungc_syntax::{Diagnostic, Diagnostics, Fix, Label, Program, Severity, codes};
+use rungc_syntax::{Diagnostic, Diagnostics, Fix, Program, Severity, Span};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -69,14 +69,7 @@ impl<'a> Findings<'a> {
         diagnostics: Diagnostics,
         reporting: &Reporting,
     ) -> Self {
-        let mut diagnostics = joined_labels(diagnostics.sorted());
-        diagnostics.retain_mut(|d| match level(d, reporting) {
-            Some(severity) => {
-                d.severity = severity;
-                true
-            }
-            None => false,
-        });
+        let diagnostics = reporting.levels().apply(diagnostics);
         Findings {
             path,
             program: Some(program),
@@ -124,6 +117,12 @@ impl<'a> Findings<'a> {
         }
     }
 
+    /// Location of a span; `None` if nothing could be read.
+    pub fn location(&self, span: Span) -> Option<Location> {
+        let program = self.program?;
+        Some(Location::of(program, &self.step_numbers, span))
+    }
+
     /// The fix of a diagnostic, if the program is a text that it can change.
     fn fix<'d>(&self, diagnostic: &'d Diagnostic) -> Option<&'d Fix> {
         let list = self.program?.kind.is_list();
@@ -158,43 +157,6 @@ impl Totals {
         self.errors += other.errors;
         self.warnings += other.warnings;
         self.notes += other.notes;
-    }
-}
-
-/// One error for all operands that are labels: a program with labels has hundreds of them.
-fn joined_labels(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
-    let is_label = |d: &Diagnostic| d.code == codes::LABEL_OPERAND.id;
-    let more: Vec<Diagnostic> = diagnostics.extract_if(.., |d| is_label(d)).collect();
-    let mut more = more.into_iter();
-    let Some(mut first) = more.next() else {
-        return diagnostics;
-    };
-    if more.len() > 0 {
-        first.message = format!("{}, and so are {} more operands", first.message, more.len());
-    }
-    first.others.extend(more.map(|d| Label {
-        span: d.span,
-        text: "a label too".into(),
-    }));
-    let at = diagnostics.partition_point(|d| d.span < first.span);
-    diagnostics.insert(at, first);
-    diagnostics
-}
-
-/// Severity of a finding under the options of the command line, which take precedence, and the rules of the project;
-/// `None` leaves it out. Errors and notes stay what they are, but for notes that are left out.
-fn level(d: &Diagnostic, reporting: &Reporting) -> Option<Severity> {
-    let (options, rules) = (reporting, &reporting.rules);
-    match d.severity {
-        Severity::Error => Some(Severity::Error),
-        _ if options.allow.contains(&d.code) => None,
-        _ if options.deny.contains(&d.code) => Some(Severity::Error),
-        _ if rules.allow.contains(&d.code) => None,
-        Severity::Note => Some(Severity::Note),
-        Severity::Warning if options.deny_warnings || rules.deny.contains(&d.code) => {
-            Some(Severity::Error)
-        }
-        Severity::Warning => Some(Severity::Warning),
     }
 }
 
@@ -325,7 +287,7 @@ impl<'a> Reporter<'a> {
         }
         let evidence = findings.verification.as_ref();
         self.junit.push(junit::Suite {
-            name: location::named(findings.path),
+            name: named(findings.path),
             properties: evidence.map_or_else(Vec::new, junit::grounds),
             cases,
         });

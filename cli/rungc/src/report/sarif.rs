@@ -1,8 +1,8 @@
 //! Diagnostics as SARIF 2.1.0, for code scanning services.
 
 use super::Findings;
-use super::location::Location;
 use super::visible::to_json;
+use rungc::location::Location;
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Diagnostic, Fix, Severity, Span};
 use serde_json::{Value, json};
@@ -143,9 +143,7 @@ fn item(findings: &Findings, d: &Diagnostic) -> Value {
 /// A fix as a change of the file.
 fn change(findings: &Findings, fix: &Fix) -> Value {
     let replacements = fix.edits.iter().filter_map(|edit| {
-        let region = Location::of(findings, edit.span)
-            .as_ref()
-            .and_then(region)?;
+        let region = findings.location(edit.span).as_ref().and_then(region)?;
         Some(json!({
             "deletedRegion": region,
             "insertedContent": { "text": edit.text.as_str() },
@@ -165,7 +163,7 @@ fn artifact(path: &Path) -> Value {
 }
 
 fn location(findings: &Findings, span: Span, text: Option<&str>) -> Value {
-    let found = Location::of(findings, span);
+    let found = findings.location(span);
     let mut physical = json!({ "artifactLocation": artifact(findings.path) });
     if let Some(region) = found.as_ref().and_then(region) {
         physical["region"] = region;

@@ -31,6 +31,7 @@ mod images;
 mod interrupted;
 mod large;
 mod learn;
+mod library;
 #[cfg(unix)]
 mod lines;
 #[cfg(unix)]

@@ -5,9 +5,7 @@
 
 use super::Setting;
 use super::live::Control;
-use rungc_interp::Saved;
-use rungc_rt::VirtualHal;
-use rungc_sim::plant::Plant;
+use rungc_sim::session;
 use std::collections::VecDeque;
 use std::iter::Peekable;
 use std::slice::Iter;
@@ -20,17 +18,11 @@ const MOMENTS: usize = 128;
 /// A run before a scan.
 #[derive(Clone)]
 pub struct Moment<'a> {
-    /// Time of the moment.
-    pub now_ms: u64,
-    /// The PLC.
-    pub machine: Saved,
-    /// Its hardware.
-    pub hal: VirtualHal,
-    /// The machine that it is wired to.
-    pub plant: Option<Plant>,
+    /// The PLC with what is around it.
+    pub session: session::Moment,
     /// Pending settings.
     pub pending: Peekable<Iter<'a, Setting>>,
-    /// State of the page's control, with the forced values.
+    /// State of the page's control.
     pub control: Control,
 }
 

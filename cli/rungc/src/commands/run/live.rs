@@ -1,20 +1,18 @@
 //! `rungc serve --page`: what the page shows of a run, and what it asks the run to do.
 
-use crate::commands::names::Names;
-use crate::commands::setting::fits;
 use crate::commands::{Failure, eprint_line};
+use rungc::Names;
+use rungc::names::fits;
 use rungc_analysis::resolve::resolve;
 use rungc_host::servers::after;
-use rungc_interp::Machine;
 use rungc_ladder::build;
 use rungc_live::{Command, Frame, Log, Order, Scene, Server, token};
 use rungc_models::Model;
-use rungc_rt::{Class, Plc, Program as _, VirtualHal};
+use rungc_rt::{Class, Plc};
 use rungc_runtime_sources::cache;
-use rungc_sim::Target;
-use rungc_sim::plant::Plant;
 use rungc_sim::record::{Reading, Seen};
-use rungc_syntax::{DeviceClass, Program};
+use rungc_sim::{Session, Target};
+use rungc_syntax::Program;
 use serde_json::{Value, json};
 use std::net::SocketAddr;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
@@ -43,14 +41,8 @@ pub struct Page<'a> {
 
 /// A run between two scans.
 pub struct Running<'a, 'm> {
-    /// The PLC.
-    pub machine: &'a mut Machine<'m>,
-    /// Its hardware.
-    pub hal: &'a mut VirtualHal,
-    /// The machine that it is wired to.
-    pub plant: Option<&'a Plant>,
-    /// The time.
-    pub now_ms: u64,
+    /// The PLC with what is around it.
+    pub session: &'a mut Session<'m>,
     /// By how many scans it can go back.
     pub back: u64,
 }
@@ -60,7 +52,6 @@ pub struct Running<'a, 'm> {
 pub struct Control {
     /// Number of scans executed.
     pub scans: u64,
-    forced: Vec<(Target, f64)>,
     was_running: bool,
     /// States of edges in the ladder.
     edges: Vec<[bool; 2]>,
@@ -77,22 +68,14 @@ pub enum Due {
 }
 
 impl Running<'_, '_> {
-    fn seen(&self) -> Seen<'_> {
-        Seen {
-            machine: self.machine,
-            hal: self.hal,
-            plant: self.plant,
-        }
-    }
-
     /// The device of this name or comment, which exists.
     fn device(&self, name: &str, names: &Names) -> Result<Target, String> {
         let target = names.target(name)?;
-        match Reading::of(self.seen(), target) {
+        match self.session.reading(target) {
             Some(_) => Ok(target),
             None => Err(format!(
                 "`{target}` does not exist on {}",
-                self.machine.module().model.title
+                self.session.machine().module().model.title
             )),
         }
     }
@@ -100,22 +83,10 @@ impl Running<'_, '_> {
     /// Checks that a device can be set to a value, which it keeps.
     fn takes(&self, target: Target, value: f64) -> Result<(), String> {
         fits(target, value)?;
-        rungc_sim::check_lasts(self.machine.module().model, target, |relay| {
-            self.machine.bit(Class::M, relay.number()) == Some(true)
+        let machine = self.session.machine();
+        rungc_sim::check_lasts(machine.module().model, target, |relay| {
+            machine.bit(Class::M, relay.number()) == Some(true)
         })
-    }
-
-    /// Sets a device; an input has an edge.
-    fn set(&mut self, target: Target, value: f64) {
-        let before = Reading::of(self.seen(), target);
-        // It exists: that was looked at when it was named.
-        let _ = rungc_sim::set(self.machine, self.hal, target, value);
-        if let Target::Bit(DeviceClass::X, number) = target
-            && before != Some(Reading::Bit(value != 0.0))
-        {
-            self.machine.input_edge(self.hal, number, value != 0.0);
-            self.machine.take_interrupts(self.hal);
-        }
     }
 }
 
@@ -199,7 +170,6 @@ impl Live {
             slower: 1,
             control: Control {
                 scans: 0,
-                forced: Vec::new(),
                 was_running: true,
                 edges: Vec::new(),
             },
@@ -211,27 +181,19 @@ impl Live {
         })
     }
 
-    /// Gives forced devices their values, as before and after each scan.
-    pub fn force(&self, machine: &mut Machine, hal: &mut VirtualHal) {
-        for &(target, value) in &self.control.forced {
-            // It exists: that was looked at when it was forced.
-            let _ = rungc_sim::set(machine, hal, target, value);
-        }
-    }
-
     /// Takes notice of a scan.
     pub fn scanned(&mut self, running: Running) {
-        self.force(running.machine, running.hal);
+        let session = &*running.session;
         self.control.scans += 1;
-        let is_running = running.machine.sys().running;
+        let is_running = session.machine().sys().running;
         let changed = std::mem::replace(&mut self.control.was_running, is_running) != is_running;
-        self.scene.scanned(running.seen());
+        self.scene.scanned(session.seen());
         if self.again {
             return;
         }
         if changed {
             let mode = if is_running { "RUN" } else { "STOP" };
-            self.note(running.now_ms, "event", mode);
+            self.note(session.now_ms(), "event", mode);
         }
         if let Some(left) = &mut self.scans_left {
             *left -= 1;
@@ -239,9 +201,9 @@ impl Live {
                 self.pause("after single scans".to_string());
             }
         }
-        if let Some((why, network)) = self.broken(running.seen()) {
+        if let Some((why, network)) = self.broken(session.seen()) {
             self.log
-                .write(running.now_ms, "event", &format!("breakpoint: {why}"));
+                .write(session.now_ms(), "event", &format!("breakpoint: {why}"));
             self.pause(why);
             self.stopped_at = network;
         }
@@ -338,7 +300,7 @@ impl Live {
         self.control.scans
     }
 
-    /// Progress of the run, and the forced values.
+    /// Progress of the run.
     pub fn control(&self) -> Control {
         Control {
             edges: self.scene.edges(),
@@ -357,9 +319,9 @@ impl Live {
     pub fn is_back(&mut self, running: &Running) {
         self.again = false;
         // Breakpoints compare with how things are now.
-        self.broken(running.seen());
+        self.broken(running.session.seen());
         let scan = format!("back at scan {}", self.scans());
-        self.note(running.now_ms, "event", &scan);
+        self.note(running.session.now_ms(), "event", &scan);
         self.pause(scan);
         self.stopped_at = None;
         self.shown = None;
@@ -371,10 +333,10 @@ impl Live {
         command: &Command,
         running: &mut Running,
     ) -> Result<Option<u32>, String> {
-        let now_ms = running.now_ms;
+        let now_ms = running.session.now_ms();
         match command {
-            Command::Run {} => turn_switch(running.machine, true),
-            Command::Stop {} => turn_switch(running.machine, false),
+            Command::Run {} => turn_switch(running.session, true),
+            Command::Stop {} => turn_switch(running.session, false),
             Command::Pause {} => self.pause("by hand".to_string()),
             Command::Continue {} => self.resume(None),
             Command::Back { count: 0 } => return Err("go back by at least one scan".to_string()),
@@ -386,21 +348,21 @@ impl Live {
             Command::Set { device, value } => {
                 let target = running.device(device, &self.names)?;
                 running.takes(target, *value)?;
-                running.set(target, *value);
+                // It exists: that was looked at when it was named.
+                let _ = running.session.set(target, *value);
+                running.session.take_interrupts();
                 self.log
                     .write(now_ms, "event", &format!("{target} set to {value}"));
             }
             Command::Force { device, value } => self.begin_force(device, *value, running)?,
             Command::Release { device } => {
                 let target = running.device(device, &self.names)?;
-                let forced = &mut self.control.forced;
-                let index = forced.iter().position(|(other, _)| *other == target);
-                forced.remove(index.ok_or_else(|| format!("{target} is not forced"))?);
+                running.session.release(target)?;
                 self.log
                     .write(now_ms, "event", &format!("{target} released"));
             }
             Command::ReleaseAll {} => {
-                self.control.forced.clear();
+                running.session.release_all();
                 self.note(now_ms, "event", "all devices released");
             }
             Command::Watch { device } => {
@@ -422,7 +384,7 @@ impl Live {
                     fits(target, *value)?;
                 }
                 check_count(self.breaks.len(), MAX_BREAKS, "breakpoints")?;
-                let now = Reading::of(running.seen(), target);
+                let now = running.session.reading(target);
                 self.breaks.push(Break::Device(target, *value, now));
             }
             Command::BreakOnNetwork { network } => {
@@ -431,7 +393,7 @@ impl Live {
                 let index =
                     index.ok_or_else(|| format!("networks are numbered from 1 to {count}"))?;
                 check_count(self.breaks.len(), MAX_BREAKS, "breakpoints")?;
-                let is = self.scene.reaches(index, running.seen());
+                let is = self.scene.reaches(index, running.session.seen());
                 self.breaks.push(Break::Network(index, is));
             }
             Command::Unbreak { index } if *index < self.breaks.len() => {
@@ -451,15 +413,10 @@ impl Live {
     ) -> Result<(), String> {
         let target = running.device(device, &self.names)?;
         running.takes(target, value)?;
-        let mut forced = self.control.forced.iter().map(|(other, _)| *other);
-        if let Some(other) = forced.find(|other| overlap(*other, target)) {
-            return Err(format!("release {other} first, which is forced"));
-        }
-        running.set(target, value);
-        self.control.forced.retain(|(other, _)| *other != target);
-        self.control.forced.push((target, value));
+        running.session.force(target, value)?;
+        running.session.take_interrupts();
         self.log.write(
-            running.now_ms,
+            running.session.now_ms(),
             "event",
             &format!("{target} forced to {value}"),
         );
@@ -479,10 +436,11 @@ impl Live {
             return;
         }
         self.shown = Some(Instant::now());
-        let seen = running.seen();
+        let session = &*running.session;
+        let seen = session.seen();
         let state = json!({
             "run": self.began,
-            "ms": running.now_ms,
+            "ms": session.now_ms(),
             "scans": self.scans(),
             "back": running.back,
             "running": seen.machine.sys().running,
@@ -498,9 +456,9 @@ impl Live {
             let number = reading.as_ref().and_then(number);
             json!({ "device": super::name(target), "value": value, "number": number })
         });
-        let forced = self.control.forced.iter();
+        let forced = session.forced().iter();
         let forced =
-            forced.map(|(target, value)| json!({ "device": super::name(*target), "value": value }));
+            forced.map(|(target, value)| json!({ "device": super::name(target), "value": value }));
         let breaks = self.breaks.iter().map(|point| {
             let network = match point {
                 Break::Network(network, _) => Some(network + 1),
@@ -527,8 +485,8 @@ impl Live {
 }
 
 /// Turns the switch to RUN or STOP, and reports it as a switch by a client is.
-fn turn_switch(machine: &mut Machine, running: bool) {
-    machine.set_running(running);
+fn turn_switch(session: &mut Session, running: bool) {
+    session.set_running(running);
     let state = if running { "RUN" } else { "STOP" };
     eprint_line(&format!("rungc: the page switches to {state}"));
 }
@@ -554,18 +512,6 @@ fn number(reading: &Reading) -> Option<f64> {
         Reading::Float(value) => Some(*value),
         Reading::Text(_) => None,
     }
-}
-
-/// Returns true if two names, which are not the same, have a device in common.
-fn overlap(one: Target, other: Target) -> bool {
-    let [
-        (class, first, count),
-        (other_class, other_first, other_count),
-    ] = [one, other].map(|target| target.devices(0));
-    one != other
-        && class == other_class
-        && first < other_first + other_count
-        && other_first < first + count
 }
 
 /// Checks that there is room for one more.

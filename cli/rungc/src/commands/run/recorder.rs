@@ -11,6 +11,7 @@ use rungc_sim::Target;
 use rungc_sim::engines::Interpreter;
 use rungc_sim::plctest::{self, Suite};
 use rungc_sim::record::{Reading, Seen};
+use rungc_sim::session::USUAL_SCAN_MS;
 use rungc_syntax::DeviceClass;
 use rungc_verify::written::{quoted, table};
 use std::fmt::Write;
@@ -177,7 +178,7 @@ impl Recorder {
         if step.scans != 1 {
             let _ = writeln!(text, "scans = {}", step.scans);
         }
-        if scan_ms != super::simulate::USUAL_SCAN_MS {
+        if scan_ms != USUAL_SCAN_MS {
             let _ = writeln!(text, "scan_ms = {scan_ms}");
         }
         if !step.expect.is_empty() {

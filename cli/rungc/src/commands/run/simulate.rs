@@ -2,6 +2,7 @@
 
 mod passing;
 
+use super::Setting;
 use super::connecting::Connecting;
 use super::errors::Errors;
 use super::history::{History, Moment};
@@ -18,17 +19,17 @@ use super::serving::{NetworkRequests, Servers};
 use super::table::Table;
 use super::view::{Column, Kind, View};
 use super::watch::Watch;
-use super::{Setting, hardware};
 use crate::args::RunArgs;
 use crate::commands::{Failure, Outcome, Result, eprint_line, interruption, print_text};
 use rungc_host::io::Connection;
 use rungc_host::wall::WallClock;
-use rungc_interp::{MOST_RESTARTS, Machine};
+use rungc_interp::MOST_RESTARTS;
 use rungc_ir::Module;
 use rungc_rt::{Program, VirtualHal};
-use rungc_sim::Target;
-use rungc_sim::plant::{Plant, Wired};
+use rungc_sim::plant::Plant;
 use rungc_sim::record::{Reading, Seen};
+use rungc_sim::session::{USUAL_SCAN_MS, hardware};
+use rungc_sim::{Session, Target};
 use rungc_syntax::{DeviceClass, FittedModule};
 use std::iter::Peekable;
 use std::slice::Iter;
@@ -36,8 +37,7 @@ use std::time::{Duration, Instant};
 
 /// A program that runs.
 struct Simulation<'a> {
-    machine: Machine<'a>,
-    hal: VirtualHal,
+    session: Session<'a>,
     /// Time source of the real-time clock in a run that keeps step with it.
     wall: Option<WallClock>,
     pending: Peekable<Iter<'a, Setting>>,
@@ -49,7 +49,6 @@ struct Simulation<'a> {
     plotting: Option<Plotting>,
     scope: Option<Scope>,
     retaining: Option<Retaining>,
-    plant: Option<Plant>,
     errors: Errors<'a>,
     servers: Servers,
     requests: NetworkRequests,
@@ -64,13 +63,9 @@ struct Simulation<'a> {
     can_go_back: bool,
     /// True if there may be input from outside before each scan, other than by clients of servers.
     has_external_input: bool,
-    now_ms: u64,
     /// A scan has taken longer than the constant scan time.
     overrun: bool,
 }
-
-/// Default duration of a scan, in milliseconds.
-pub const USUAL_SCAN_MS: u64 = 10;
 
 /// Options of a run.
 pub struct Run<'a> {
@@ -109,29 +104,26 @@ impl Run<'_> {
         recorder: Option<Recorder>,
     ) -> Result {
         let Run { args, module, .. } = *self;
-        let mut machine = Machine::new(module);
         let (hal, wall) = self.hardware();
-        machine.set_program_memory(self.program_memory);
+        let mut session = Session::new(module, hal);
+        session
+            .machine_mut()
+            .set_program_memory(self.program_memory);
         // Missing devices are reported before anything is shown or written.
-        self.look_for_all(Seen {
-            machine: &machine,
-            hal: &hal,
-            plant: plant.as_ref(),
-        })?;
+        self.look_for_all(session.seen())?;
         let retaining = self.retain.as_ref();
-        let retaining = retaining.map(|kept| Retaining::begin(kept, &mut machine));
+        let retaining = retaining.map(|kept| Retaining::begin(kept, session.machine_mut()));
         let retaining = retaining.transpose()?;
         let seen = Seen {
-            machine: &machine,
-            hal: &hal,
             plant: plant.as_ref(),
+            ..session.seen()
         };
         let recording = match &args.vcd {
             Some(path) => Some(Recording::begin((path, args.force), seen, self.shown)?),
             None => None,
         };
         let scope = match &args.scope {
-            Some(path) => Some(Scope::begin(path, args.force, &machine)?),
+            Some(path) => Some(Scope::begin(path, args.force, session.machine())?),
             None => None,
         };
         let plotting = self.plotting(seen)?;
@@ -143,8 +135,7 @@ impl Run<'_> {
             watch.record();
         }
         let mut simulation = Simulation {
-            machine,
-            hal,
+            session,
             wall,
             pending: self.settings.iter().peekable(),
             shown: self.shown,
@@ -155,7 +146,6 @@ impl Run<'_> {
             plotting,
             scope,
             retaining,
-            plant,
             errors: Errors::new(module, self.errors_at_once),
             servers: Servers::open(&args.serve, module.model, &mut watch)?,
             requests: NetworkRequests::new(module, args.in_real_time(), &mut watch),
@@ -168,14 +158,13 @@ impl Run<'_> {
             history: History::default(),
             can_go_back: args.vcd.is_none() && args.plot.is_none() && args.scope.is_none(),
             has_external_input: self.has_external_input(),
-            now_ms: 0,
             overrun: false,
         };
         interruption::note();
         if let Some(priority) = args.serve.priority {
             pace::raise(priority)?;
         }
-        match simulation.run(args) {
+        match simulation.run(args, plant) {
             // What the run has found so far.
             Err(Failure::BrokenPipe) => Ok(simulation.outcome(args)),
             outcome => simulation.end(args, outcome?),
@@ -197,7 +186,7 @@ impl Run<'_> {
 
     /// The hardware, and what its real-time clock follows in a run that keeps step with it.
     fn hardware(&self) -> (VirtualHal, Option<WallClock>) {
-        let mut hal = hardware::of(self.modules);
+        let mut hal = hardware(self.modules);
         let in_real_time = self.args.in_real_time();
         let wall = in_real_time.then(|| WallClock::begin(&mut hal));
         (hal, wall)
@@ -235,7 +224,8 @@ impl Run<'_> {
 impl<'a> Simulation<'a> {
     /// Reports what has happened, and completes the files; a run that is denied errors fails by them.
     fn end(mut self, args: &RunArgs, outcome: Outcome) -> Result {
-        self.lines.end(self.now_ms, &mut self.watch);
+        let now_ms = self.session.now_ms();
+        self.lines.end(now_ms, &mut self.watch);
         let connected = std::mem::take(&mut self.connecting);
         if connected.any() || args.serve.priority.is_some() {
             let summary = self.pace.summary();
@@ -245,18 +235,19 @@ impl<'a> Simulation<'a> {
         }
         connected.end();
         let retaining = self.retaining.take();
-        let is_kept = retaining.is_none_or(|retaining| retaining.end(&self.machine));
+        let is_kept = retaining.is_none_or(|retaining| retaining.end(self.session.machine()));
         let table = self.watch.table();
         let printed = match table.is_empty() {
             true => Ok(()),
             false => print_text(&format!("\n{}\n", table.join("\n"))),
         };
         let denied = self.is_denied(args);
-        self.errors.summarise(self.machine.errors());
-        let cut_short = self.machine.watchdog_tripped() || interruption::is_requested();
+        let machine = self.session.machine();
+        self.errors.summarise(machine.errors());
+        let cut_short = machine.watchdog_tripped() || interruption::is_requested();
         let end_ms = match args.end_ms() {
             Some(end_ms) if !cut_short => end_ms,
-            _ => self.now_ms,
+            _ => now_ms,
         };
         if let Some(recording) = self.recording {
             recording.keep(1000 * end_ms)?;
@@ -268,7 +259,7 @@ impl<'a> Simulation<'a> {
             plotting.keep()?;
         }
         if let Some(scope) = self.scope {
-            scope.keep(&self.machine)?;
+            scope.keep(self.session.machine())?;
         }
         if denied || !is_kept {
             return Ok(Outcome::Failed);
@@ -277,33 +268,30 @@ impl<'a> Simulation<'a> {
         Ok(outcome)
     }
 
-    fn run(&mut self, args: &RunArgs) -> Result {
+    fn run(&mut self, args: &RunArgs, plant: Option<Plant>) -> Result {
         self.out.line(&self.view.heading())?;
         let mut begin = Instant::now();
         self.apply_settings()?;
-        if let Some(plant) = &mut self.plant {
-            let mut wired = Wired {
-                machine: &mut self.machine,
-                hal: &mut self.hal,
-                changed: &mut |_| Ok::<_, Failure>(()),
-            };
-            wired.connect(plant)?;
+        if let Some(plant) = plant {
+            self.session.connect(plant)?;
         }
         let end_ms = args.end_ms().unwrap_or(u64::MAX);
         loop {
             self.answer_clients();
-            self.connecting.take(&mut self.machine, &mut self.hal);
+            let (machine, hal) = self.session.parts();
+            self.connecting.take(machine, hal);
             self.turn_switch();
+            let now_ms = self.session.now_ms();
             self.requests
-                .poll(&mut self.machine, &mut self.watch, 1000 * self.now_ms);
+                .poll(self.session.machine_mut(), &mut self.watch, 1000 * now_ms);
             self.remember();
             let mut scan_ms = self.scan(args.scan)?;
-            self.connecting.give(&mut self.machine);
+            self.connecting.give(self.session.machine_mut());
             self.note_events();
-            if self.machine.watchdog_tripped() {
-                let error = self.machine.last_error();
-                let message = self.errors.watchdog(self.now_ms, error);
-                let endless = match self.machine.is_endless() {
+            let machine = self.session.machine();
+            if machine.watchdog_tripped() {
+                let message = self.errors.watchdog(now_ms, machine.last_error());
+                let endless = match machine.is_endless() {
                     true => {
                         format!(" (WDT restarted the watchdog {MOST_RESTARTS} times in this scan)")
                     }
@@ -314,28 +302,30 @@ impl<'a> Simulation<'a> {
                 return Ok(Outcome::Failed);
             }
             if interruption::is_requested() {
-                eprint_line(&format!("rungc: interrupted at {} ms", self.now_ms));
+                eprint_line(&format!("rungc: interrupted at {now_ms} ms"));
                 self.pass_last(scan_ms)?;
                 return Ok(Outcome::Interrupted);
             }
-            if self.now_ms.saturating_add(scan_ms) > end_ms {
+            if now_ms.saturating_add(scan_ms) > end_ms {
                 self.pass_last(scan_ms)?;
                 break;
             }
             if args.in_real_time() {
                 if let Some(retaining) = &mut self.retaining {
-                    retaining.poll(&mut self.machine, self.now_ms);
+                    retaining.poll(self.session.machine_mut(), now_ms);
                 }
                 (begin, scan_ms) = self.rest(begin, scan_ms, args.scan)?;
-                self.lines
-                    .receive(&mut self.hal, begin, self.now_ms, &mut self.watch);
+                let now_ms = self.session.now_ms();
+                let (_, hal) = self.session.parts();
+                self.lines.receive(hal, begin, now_ms, &mut self.watch);
             }
             self.pass(scan_ms)?;
+            let now_ms = self.session.now_ms();
+            let (machine, hal) = self.session.parts();
             if let Some(wall) = &mut self.wall {
-                wall.follow(&mut self.hal, self.now_ms);
+                wall.follow(hal, now_ms);
             }
-            let (hal, machine) = (&mut self.hal, &mut self.machine);
-            self.lines.send(hal, machine, self.now_ms, &mut self.watch);
+            self.lines.send(hal, machine, now_ms, &mut self.watch);
         }
         self.out
             .line(format!("\n{}", self.view.diagram(end_ms)).trim_end_matches('\n'))?;
@@ -351,16 +341,16 @@ impl<'a> Simulation<'a> {
     /// Goes to RUN or STOP if a signal has requested it.
     fn turn_switch(&mut self) {
         if let Some(running) = self.mode.requested() {
-            self.machine.set_running(running);
+            self.session.set_running(running);
             self.history.disturb();
             let mode = if running { "RUN" } else { "STOP" };
-            eprint_line(&format!("rungc: {mode} at {} ms", self.now_ms));
+            eprint_line(&format!("rungc: {mode} at {} ms", self.session.now_ms()));
         }
     }
 
     /// Outcome of the run so far.
     fn outcome(&self, args: &RunArgs) -> Outcome {
-        match self.plant.as_ref().and_then(Plant::collision) {
+        match self.session.plant().and_then(Plant::collision) {
             None if !self.is_denied(args) => Outcome::Success,
             _ => Outcome::Failed,
         }
@@ -368,27 +358,27 @@ impl<'a> Simulation<'a> {
 
     /// Returns true if there were operation errors, of which `--deny-errors` allows none.
     fn is_denied(&self, args: &RunArgs) -> bool {
-        args.deny_errors && !self.machine.errors().is_empty()
+        args.deny_errors && !self.session.machine().errors().is_empty()
     }
 
     /// Reports new operation errors, and shows them and frames on the page.
     fn note_events(&mut self) {
-        let errors = self.errors.notice(self.machine.errors());
+        let errors = self.errors.notice(self.session.machine().errors());
         let frames = self.watch.take_recorded();
         if let Some(live) = &mut self.live {
             let errors = errors.iter().map(|text| ("error", text));
             let frames = frames.iter().map(|text| ("frame", text));
             for (kind, text) in errors.chain(frames) {
-                live.note(self.now_ms, kind, text);
+                live.note(self.session.now_ms(), kind, text);
             }
         }
     }
 
     /// Carries out and answers the requests of clients of servers.
     fn answer_clients(&mut self) {
-        let at_us = 1000 * self.now_ms;
-        let servers = &mut self.servers;
-        if servers.poll(&mut self.machine, &mut self.watch, at_us) {
+        let at_us = 1000 * self.session.now_ms();
+        let machine = self.session.machine_mut();
+        if self.servers.poll(machine, &mut self.watch, at_us) {
             self.history.disturb();
         }
     }
@@ -401,10 +391,7 @@ impl<'a> Simulation<'a> {
             false => 0,
         };
         let running = Running {
-            machine: &mut self.machine,
-            hal: &mut self.hal,
-            plant: self.plant.as_ref(),
-            now_ms: self.now_ms,
+            session: &mut self.session,
             back,
         };
         Some((live, running))
@@ -419,7 +406,7 @@ impl<'a> Simulation<'a> {
         given_ms: Option<u64>,
     ) -> std::result::Result<(Instant, u64), Failure> {
         loop {
-            let next = Duration::from_millis(self.now_ms + scan_ms);
+            let next = Duration::from_millis(self.session.now_ms() + scan_ms);
             let Some((live, running)) = self.running() else {
                 return Ok((self.pace.wait(begin, next), scan_ms));
             };
@@ -462,10 +449,7 @@ impl<'a> Simulation<'a> {
         };
         if self.has_external_input || self.history.is_due(live.scans()) {
             self.history.keep(Moment {
-                now_ms: self.now_ms,
-                machine: self.machine.save(),
-                hal: self.hal.clone(),
-                plant: self.plant.clone(),
+                session: self.session.save(),
                 pending: self.pending.clone(),
                 control: live.control(),
             });
@@ -491,10 +475,7 @@ impl<'a> Simulation<'a> {
         let Some(moment) = self.history.before(scan) else {
             return Ok(Err("the run cannot go back".to_string()));
         };
-        self.now_ms = moment.now_ms;
-        self.machine.restore(&moment.machine);
-        self.hal = moment.hal;
-        self.plant = moment.plant;
+        self.session.restore(&moment.session);
         self.pending = moment.pending;
         let Some(live) = &mut self.live else {
             return Ok(Err("the run has no page".to_string()));
@@ -519,16 +500,10 @@ impl<'a> Simulation<'a> {
 
     /// A scan; how many milliseconds it lasts, if one takes `given_ms`.
     fn scan(&mut self, given_ms: Option<u64>) -> std::result::Result<u64, Failure> {
-        self.hal.advance_to(self.now_ms as u32);
         if let Some(recorder) = &mut self.recorder {
             recorder.scan_begins();
         }
-        let scan_us = (self.scan_ms(given_ms) * 1000).min(u64::from(u32::MAX)) as u32;
-        if let Some(live) = &self.live {
-            live.force(&mut self.machine, &mut self.hal);
-        }
-        self.hal
-            .scan(&mut self.machine, self.now_ms as u32, scan_us);
+        self.session.scan(self.session.scan_ms(given_ms));
         if let Some((live, running)) = self.running() {
             live.scanned(running);
         }
@@ -537,17 +512,17 @@ impl<'a> Simulation<'a> {
             .iter()
             .map(|&target| self.read(target))
             .collect::<std::result::Result<Vec<_>, _>>()?;
-        if let Some(row) = self.view.scan(self.now_ms, &values) {
+        let now_ms = self.session.now_ms();
+        if let Some(row) = self.view.scan(now_ms, &values) {
             self.out.line(&row)?;
         }
         self.record()?;
-        let scan_ms = self.scan_ms(given_ms);
-        match self.machine.constant_scan_ms() {
+        let scan_ms = self.session.scan_ms(given_ms);
+        match self.session.machine().constant_scan_ms() {
             Some(constant_ms) if u64::from(constant_ms) < scan_ms && !self.overrun => {
                 self.overrun = true;
                 eprint_line(&format!(
-                    "rungc: at {} ms: a scan takes {scan_ms} ms, longer than the constant scan time of {constant_ms} ms",
-                    self.now_ms
+                    "rungc: at {now_ms} ms: a scan takes {scan_ms} ms, longer than the constant scan time of {constant_ms} ms"
                 ));
             }
             _ => {}
@@ -555,43 +530,23 @@ impl<'a> Simulation<'a> {
         Ok(scan_ms)
     }
 
-    /// Duration of a scan in milliseconds: its own, and the wait for the constant scan time.
-    fn scan_ms(&self, given_ms: Option<u64>) -> u64 {
-        let constant_ms = self.machine.constant_scan_ms().map(u64::from);
-        match (given_ms, constant_ms) {
-            (Some(given), Some(constant)) => given.max(constant),
-            (given, constant) => given.or(constant).unwrap_or(USUAL_SCAN_MS),
-        }
-    }
-
-    fn seen(&self) -> Seen<'_> {
-        Seen {
-            machine: &self.machine,
-            hal: &self.hal,
-            plant: self.plant.as_ref(),
-        }
-    }
-
     fn read(&self, target: Target) -> std::result::Result<String, Failure> {
-        Reading::of(self.seen(), target)
+        let reading = self.session.reading(target);
+        reading
             .map(|reading| reading.to_string())
-            .ok_or_else(|| missing(target, self.machine.module()))
+            .ok_or_else(|| missing(target, self.session.machine().module()))
     }
 
     fn record(&mut self) -> std::result::Result<(), Failure> {
-        let seen = Seen {
-            machine: &self.machine,
-            hal: &self.hal,
-            plant: self.plant.as_ref(),
-        };
+        let (seen, now_ms) = (self.session.seen(), self.session.now_ms());
         if let Some(scope) = &mut self.scope {
-            scope.sample(&self.machine);
+            scope.sample(seen.machine);
         }
         if let Some(plotting) = &mut self.plotting {
-            plotting.sample(self.now_ms, seen);
+            plotting.sample(now_ms, seen);
         }
         match &mut self.recording {
-            Some(recording) => recording.sample(1000 * self.now_ms, seen),
+            Some(recording) => recording.sample(1000 * now_ms, seen),
             None => Ok(()),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::report::{Results, human, kind, message};
 use crate::report::github;
-use crate::report::location::Location;
+use rungc::location::Location;
 use rungc_sim::plctest::Outcome;
 use std::collections::BTreeSet;
 

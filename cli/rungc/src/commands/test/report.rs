@@ -1,8 +1,8 @@
 //! Results of tests, human-readable and for tools.
 
 use super::broken::Mistake;
-use crate::report::location::named;
 use crate::report::to_json;
+use rungc::location::named;
 use rungc_sim::plctest::{Failure, Outcome, Report, Suite, Value};
 use rungc_syntax::diag::counted;
 use serde::Serialize;

@@ -10,7 +10,7 @@ use crate::commands::properties::{Reader, module};
 use crate::commands::subject;
 use crate::commands::{Context, Failure, Outcome, Result, counted, read};
 use crate::report::junit::{self, Case, Problem, Properties, properties};
-use crate::report::{Findings, Reporter, location};
+use crate::report::{Findings, Reporter};
 use rungc_evidence::Evidence;
 use rungc_ir::Module;
 use rungc_sim::Target;
@@ -203,7 +203,7 @@ fn publish(
         diagnostics.push(diagnostic);
     }
     let mut findings = Findings::new(&subject.file, program, diagnostics, &subject.reporting);
-    let file = location::named(&subject.file);
+    let file = rungc::location::named(&subject.file);
     let cases = outputs.iter().zip(&evidence.properties);
     let cases = cases.map(|(output, verified)| Case {
         properties: properties(verified),

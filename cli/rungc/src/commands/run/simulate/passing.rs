@@ -2,19 +2,17 @@
 
 use super::{Simulation, missing};
 use crate::commands::{Failure, eprint_line};
-use rungc_rt::Program;
-use rungc_sim::Target;
-use rungc_sim::plant::Wired;
-use rungc_syntax::DeviceClass;
+use rungc_sim::Session;
+use rungc_sim::plant::Plant;
 
 impl Simulation<'_> {
     /// Returns true if nothing happens between two scans but settings.
     fn is_idle_between_scans(&self) -> bool {
-        self.plant.is_none()
+        self.session.plant().is_none()
             && self.recording.is_none()
             && self.plotting.is_none()
             && self.scope.is_none()
-            && !self.machine.module().takes_time()
+            && !self.session.machine().module().takes_time()
     }
 
     /// The time from one scan to the next.
@@ -32,7 +30,7 @@ impl Simulation<'_> {
             if left == 0 || self.recorder.is_none() {
                 self.apply_settings()?;
             }
-            self.machine.take_interrupts(&mut self.hal);
+            self.session.take_interrupts();
             // The initial state of a scan is recorded as it leaves it.
             if left > 0 {
                 self.record()?;
@@ -43,13 +41,13 @@ impl Simulation<'_> {
 
     /// The time from one scan to the next, in which nothing happens but what is set.
     fn pass_idly(&mut self, scan_ms: u64) -> std::result::Result<(), Failure> {
-        let next_ms = self.now_ms + scan_ms;
+        let next_ms = self.session.now_ms() + scan_ms;
         while let Some(setting) = self.pending.peek().filter(|s| s.at_ms <= next_ms) {
-            self.now_ms = setting.at_ms;
+            self.session.skip(setting.at_ms - self.session.now_ms());
             self.apply_settings()?;
-            self.machine.take_interrupts(&mut self.hal);
+            self.session.take_interrupts();
         }
-        self.now_ms = next_ms;
+        self.session.skip(next_ms - self.session.now_ms());
         Ok(())
     }
 
@@ -58,7 +56,7 @@ impl Simulation<'_> {
         if self.recorder.is_some() && !self.is_idle_between_scans() {
             for _ in 0..scan_ms {
                 self.part_of_millisecond()?;
-                self.machine.take_interrupts(&mut self.hal);
+                self.session.take_interrupts();
             }
         }
         self.compare_to_come();
@@ -68,40 +66,30 @@ impl Simulation<'_> {
     /// Records what a test compares after this scan.
     fn compare_to_come(&mut self) {
         if let Some(mut recorder) = self.recorder.take() {
-            recorder.scanned(self.seen());
+            recorder.scanned(self.session.seen());
             self.recorder = Some(recorder);
         }
     }
 
     /// A millisecond between two scans, but for what is set and interrupts.
     fn part_of_millisecond(&mut self) -> std::result::Result<(), Failure> {
-        self.now_ms += 1;
-        self.hal.advance_to(self.now_ms as u32);
-        self.move_plant()?;
-        let before = self.lines.mode(&mut self.machine);
-        self.machine.tick(&mut self.hal, self.now_ms as u32);
-        self.lines.report_switch(before, &mut self.machine);
+        self.advance()?;
+        let before = self.lines.mode(self.session.machine_mut());
+        self.session.tick();
+        self.lines.report_switch(before, self.session.machine_mut());
         Ok(())
     }
 
-    /// The machine moves for the millisecond that ends now.
-    fn move_plant(&mut self) -> std::result::Result<(), Failure> {
-        let Some(plant) = &mut self.plant else {
-            return Ok(());
-        };
-        let before = plant.collision().cloned();
+    /// The machine moves for a millisecond.
+    fn advance(&mut self) -> std::result::Result<(), Failure> {
+        let collision = |session: &Session| session.plant().and_then(Plant::collision).cloned();
+        let before = collision(&self.session);
         let recording = &mut self.recording;
-        let mut wired = Wired {
-            machine: &mut self.machine,
-            hal: &mut self.hal,
-            changed: &mut |change| match recording {
-                Some(recording) => recording.edge(change),
-                None => Ok(()),
-            },
-        };
-        plant.step(self.now_ms, &[], &mut wired)?;
-        if let Some(collision) = plant.collision()
-            && before.as_ref() != Some(collision)
+        self.session.advance(&[], &mut |change| match recording {
+            Some(recording) => recording.edge(change),
+            None => Ok(()),
+        })?;
+        if let Some(collision) = collision(&self.session).filter(|now| before.as_ref() != Some(now))
         {
             eprint_line(&format!("rungc: {collision}"));
         }
@@ -110,23 +98,12 @@ impl Simulation<'_> {
 
     /// Sets what is to be set now.
     pub(super) fn apply_settings(&mut self) -> std::result::Result<(), Failure> {
-        while let Some(setting) = self.pending.next_if(|s| s.at_ms <= self.now_ms) {
-            self.hal.advance_to(self.now_ms as u32);
-            rungc_sim::set(
-                &mut self.machine,
-                &mut self.hal,
-                setting.target,
-                setting.value,
-            )
-            .ok_or_else(|| missing(setting.target, self.machine.module()))?;
+        let now_ms = self.session.now_ms();
+        while let Some(setting) = self.pending.next_if(|s| s.at_ms <= now_ms) {
+            let set = self.session.set(setting.target, setting.value);
+            set.ok_or_else(|| missing(setting.target, self.session.machine().module()))?;
             if let Some(recorder) = &mut self.recorder {
                 recorder.set(setting.target, setting.value);
-            }
-            if let Target::Bit(DeviceClass::X, number) = setting.target
-                && self.now_ms > 0
-            {
-                self.machine
-                    .input_edge(&mut self.hal, number, setting.value != 0.0);
             }
         }
         Ok(())

@@ -1,6 +1,5 @@
 //! Locations of findings as their reader knows them: lines and columns of a text, steps of a project or an export.
 
-use super::Findings;
 use rungc_syntax::{Program, Span};
 use serde::Serialize;
 use std::path::Path;
@@ -35,24 +34,23 @@ pub struct Location {
 }
 
 impl Location {
-    /// Location of a span in a program; `None` if nothing could be read.
-    pub fn of(findings: &Findings, span: Span) -> Option<Location> {
-        let program = findings.program?;
+    /// Location of a span in a program, whose instructions have these step numbers if they have been counted.
+    pub fn of(program: &Program, step_numbers: &[u32], span: Span) -> Location {
         let at = instr_at(program, span.start);
         if program.kind.is_text() {
             let (line, column) = program.source.line_col(span.start);
             let (end_line, end_column) = program.source.line_col(span.end);
-            return Some(Location {
+            return Location {
                 line: Some(line),
                 column: Some(column),
                 end_line: Some(end_line),
                 end_column: Some(end_column),
                 step: at.and_then(|at| program.instrs[at].step),
                 ..Location::default()
-            });
+            };
         }
         let step = |at: usize| {
-            let counted = || findings.step_numbers.get(at).copied();
+            let counted = || step_numbers.get(at).copied();
             program.instrs.get(at)?.step.or_else(counted)
         };
         let before = program
@@ -60,7 +58,7 @@ impl Location {
             .partition_point(|instr| instr.span.end < span.start);
         let before = before.checked_sub(1).filter(|_| at.is_none());
         let row = |offset| program.kind.has_rows().then(|| program.source.line(offset));
-        Some(Location {
+        Location {
             line: row(span.start),
             end_line: row(span.end),
             program: Some(name_within(program)),
@@ -68,7 +66,7 @@ impl Location {
             after_step: before.and_then(step),
             instruction: at.map(|at| program.instrs[at].to_string()),
             ..Location::default()
-        })
+        }
     }
 
     /// The location as the head of a drawing: `motor.il:3:4`, `Packer.gxw · MAIN · step 37`.
@@ -107,6 +105,9 @@ pub fn named(path: &Path) -> String {
 }
 
 /// Serializes a path as [`named`] does; serde itself rejects other bytes.
+///
+/// # Errors
+/// Those of the serializer.
 pub fn as_named<S: serde::Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&named(path))
 }

@@ -1,19 +1,18 @@
-//! Programs for another model than the default one, which no setting names.
+//! Programs for another model than the default one, which nothing names.
 
-use super::counted;
-use super::subject::Subject;
 use rungc_frontend::Read;
 use rungc_lower::compile::{self, CompileOptions, Compiled};
 use rungc_models::{Model, ModelId};
+use rungc_syntax::diag::counted;
 use rungc_syntax::{Diagnostic, Diagnostics, Severity, codes};
 
-/// Diagnostics of a compiled program. If nothing says which model it is for, and its instructions are those of another
+/// Diagnostics of a program that was compiled with these options. If nothing says which model it is for, and its instructions are those of another
 /// one, one error says so, instead of one for each instruction.
-pub fn joined(subject: &Subject, read: &Read, compiled: &Compiled) -> Diagnostics {
+pub fn joined(options: &CompileOptions, read: &Read, compiled: &Compiled) -> Diagnostics {
     let mut missing = compiled.diagnostics.iter().filter(|d| is_missing(d));
-    let is_chosen = subject.model.is_some() || read.program.cpu.is_some();
+    let is_chosen = options.model.is_some() || read.program.cpu.is_some();
     let first = missing.next().filter(|_| !is_chosen);
-    let better = first.and_then(|first| Some((first, better(subject, read)?)));
+    let better = first.and_then(|first| Some((first, better(options, read)?)));
     let Some((first, (models, errors))) = better else {
         return compiled.diagnostics.clone();
     };
@@ -28,12 +27,12 @@ fn is_missing(diagnostic: &Diagnostic) -> bool {
 }
 
 /// The models that have all instructions of a program and on which it has the fewest errors, and these errors.
-fn better(subject: &Subject, read: &Read) -> Option<(Vec<&'static Model>, Vec<Diagnostic>)> {
+fn better(options: &CompileOptions, read: &Read) -> Option<(Vec<&'static Model>, Vec<Diagnostic>)> {
     let mut best: Option<(Vec<&'static Model>, Vec<Diagnostic>)> = None;
     for id in ModelId::ALL {
         let options = CompileOptions {
             model: Some(id),
-            ..subject.options()
+            ..options.clone()
         };
         let checked = compile::check(&read.program, &options).diagnostics;
         if checked.iter().any(is_missing) {

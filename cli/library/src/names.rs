@@ -1,14 +1,43 @@
-//! Devices as the command line and the page name them: `D0`, or by the comment that the program has on it.
+//! Devices as users name them: `D0`, or by the comment that the program has on it.
 
-use super::{Failure, setting};
 use rungc_project::device;
 use rungc_sim::Target;
 use rungc_sim::names::Comments;
 use rungc_syntax::{Device, DeviceClass, Program};
 
+/// The greatest signal of a channel, in its unit.
+const MOST_SIGNAL: f64 = 2000.0;
+
 /// Devices of a program by their comments.
 #[derive(Clone, Debug)]
 pub struct Names(Comments);
+
+/// Reads what is watched or set by its device: `D0.f32`. A timer or counter is its current value.
+///
+/// # Errors
+/// Description of the mistake.
+pub fn target(name: &str) -> Result<Target, String> {
+    let upper = upper(name);
+    if device::range(&name.trim().to_uppercase()).is_some_and(|(_, first, last)| first < last) {
+        return Err(format!("`{name}`: name one device"));
+    }
+    match Target::parse(&upper)? {
+        Target::Bit(class @ (DeviceClass::T | DeviceClass::C), n) => Ok(Target::Current(class, n)),
+        target => Ok(target),
+    }
+}
+
+/// Device letters in upper case, views (`.i32`) as they are.
+fn upper(name: &str) -> String {
+    let (device, view) = name
+        .trim()
+        .split_once('.')
+        .map_or((name.trim(), None), |(d, v)| (d, Some(v)));
+    let device = device.to_uppercase();
+    view.map_or(device.clone(), |view| {
+        format!("{device}.{}", view.to_lowercase())
+    })
+}
 
 /// A name in quotes, and what follows it.
 fn quoted(text: &str) -> Option<(&str, &str)> {
@@ -67,9 +96,9 @@ impl Names {
         if let Some((name, view)) = quoted(text) {
             let device = self.0.device(name)?;
             let device = device.ok_or_else(|| self.unknown(name, &not_a_comment(name)))?;
-            return setting::target(&format!("{device}{view}"));
+            return target(&format!("{device}{view}"));
         }
-        let target = self.0.target(text, setting::target);
+        let target = self.0.target(text, target);
         target.map_err(|wrong| self.unknown(text, &wrong))
     }
 
@@ -104,21 +133,6 @@ impl Names {
             let [first, last] = ends;
             range(&format!("{}..{}", first?, last?))
         })
-    }
-
-    /// Reads the ranges of an option, which may be repeated or has several, separated by commas.
-    ///
-    /// # Errors
-    /// The option, and what is wrong with a range.
-    pub fn ranges(
-        &self,
-        option: &str,
-        lists: &[String],
-    ) -> Result<Vec<(DeviceClass, u32, u32)>, Failure> {
-        let items = setting::items(option, lists, self)?.into_iter();
-        let ranges = items.map(|text| self.range(text.trim()));
-        let ranges: Result<_, String> = ranges.collect();
-        ranges.map_err(|why| Failure::Because(format!("{option}: {why}")))
     }
 
     /// Reads a text as devices, then as a comment, then in `another` way.
@@ -171,6 +185,39 @@ fn wrong(text: &str, upper: &str, example: &str) -> String {
 /// Message for a name in quotes that is not a comment.
 fn not_a_comment(name: &str) -> String {
     format!("no device has the comment `{name}`")
+}
+
+/// Checks that a device can be set to a value.
+///
+/// # Errors
+/// The reason why not.
+pub fn fits(target: Target, value: f64) -> Result<(), String> {
+    let fits = match target {
+        Target::Float(..) => Target::is_float(value),
+        Target::Channel(_) => value.abs() <= MOST_SIGNAL,
+        Target::Text(..) => return Err("characters cannot be set here".to_string()),
+        Target::Pulses(_) | Target::Frequency(_) => {
+            return Err("only the program can send pulses".to_string());
+        }
+        Target::Bit(..)
+        | Target::Word(..)
+        | Target::Current(..)
+        | Target::Pair(..)
+        | Target::Nibbles(..) => {
+            let range = target.integers();
+            value.fract() == 0.0 && range.is_some_and(|range| range.contains(&(value as i64)))
+        }
+    };
+    let holds = match (target, target.integers()) {
+        (Target::Bit(..), _) => "is 0 or 1".to_owned(),
+        (_, Some(range)) => format!("holds integers from {} to {}", range.start(), range.end()),
+        (Target::Channel(_), None) => format!("is -{MOST_SIGNAL} to {MOST_SIGNAL}"),
+        (_, None) => "holds numbers of 32 bits: 0, or 1.4e-45 to 3.4e38".to_owned(),
+    };
+    match fits {
+        true => Ok(()),
+        false => Err(format!("`{value}` does not fit `{target}`, which {holds}")),
+    }
 }
 
 #[cfg(test)]
