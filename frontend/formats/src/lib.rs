@@ -35,7 +35,7 @@ pub use learn::{Lesson, Mismatch, learn};
 pub use learned::{LearnError, LearnedCodes, Reading, Unproven};
 pub use plcopen::{MOST_CONTACTS, Names, PLCOPEN_CPU, iec_timer_unit, read as read_plcopen};
 pub use recognise::{Recognised, is_meant_as_toml, is_program, recognise};
-pub use search::{is_project, programs};
+pub use search::{is_project, programs, walk_error};
 pub use table::{MAX_TABLE, TableError, TableRow, read_table};
 
 /// A program and what its reader found.

@@ -30,7 +30,7 @@ pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
     let entries = WalkDir::new(folder).max_depth(depth).sort_by_file_name();
     let mut entries = entries.into_iter();
     while let Some(entry) = entries.next() {
-        let entry = entry?;
+        let entry = entry.map_err(walk_error)?;
         let path = entry.path();
         if entry.file_type().is_dir() {
             if entry.depth() > 0 && is_left_out(&entry) {
@@ -55,6 +55,16 @@ pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
         }
     }
     Ok(found)
+}
+
+/// Error of a walk through folders, with the path that cannot be read.
+pub fn walk_error(error: walkdir::Error) -> io::Error {
+    let path = error.path().unwrap_or(Path::new("")).display().to_string();
+    let (kind, why) = match error.io_error() {
+        Some(why) => (why.kind(), why.to_string()),
+        None => (io::ErrorKind::Other, error.to_string()),
+    };
+    io::Error::new(kind, format!("cannot read `{path}`: {why}"))
 }
 
 fn is_left_out(folder: &DirEntry) -> bool {

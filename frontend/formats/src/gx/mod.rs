@@ -170,11 +170,14 @@ fn no_program(name: &str, bytes: &[u8]) -> Read {
 
 /// The warning that a part of the project beside its program cannot be read on at an offset.
 fn damaged_part(what: &str, bytes: &[u8], at: usize) -> Diagnostic {
-    let shown = hex(bytes.get(at..).unwrap_or_default());
+    let there = match bytes.get(at..).unwrap_or_default() {
+        [] => ", where the data ends".to_owned(),
+        rest => format!(": {}", hex(rest)),
+    };
     codes::DAMAGED_PART
         .at(
             Span::default(),
-            format!("{what} cannot be read past offset 0x{at:04X}: {shown}"),
+            format!("{what} cannot be read past offset 0x{at:04X}{there}"),
         )
         .label("the program itself is not affected")
         .help("open the project in its editor and save it again")
@@ -191,14 +194,7 @@ fn add_comments(
     let decoded = comments
         .filter_map(|(device, text)| Some((*device, clean(&decode_text(text, encoding))?.into())));
     read.program.comments.extend(decoded);
-    if let Some(at) = table.damaged {
-        let shown = hex(bytes.get(at..).unwrap_or_default());
-        let what = "the table of device comments cannot be read past";
-        read.diagnostics.push(
-            codes::DAMAGED
-                .at(Span::default(), format!("{what} offset 0x{at:04X}: {shown}"))
-                .label("comments of this program's devices")
-                .help("the program itself is not affected: remove the comment file to continue without comments"),
-        );
-    }
+    let damaged = table.damaged;
+    let damaged = damaged.map(|at| damaged_part("the table of device comments", bytes, at));
+    read.diagnostics.extend(damaged);
 }

@@ -395,4 +395,9 @@ fn comments_that_are_damaged() {
     let read = rungc_frontend::read(folder.path()).unwrap();
     let comments: Vec<_> = read.program.comments.iter().collect();
     insta::assert_snapshot!(format!("{}\n---\n{comments:?}", findings(&read)));
+    std::fs::write(others.join("COMMENT.wcd"), b"").unwrap();
+    let empty = findings(&rungc_frontend::read(folder.path()).unwrap());
+    let message =
+        "the table of device comments cannot be read past offset 0x0040, where the data ends";
+    assert!(empty.contains(message), "{empty}");
 }

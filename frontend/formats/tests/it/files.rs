@@ -414,3 +414,13 @@ fn a_cut_off_project_says_so() {
     let first = read.diagnostics.iter().next().unwrap();
     insta::assert_snapshot!(first.message);
 }
+
+/// A folder that cannot be searched is named as a file that cannot be read is.
+#[test]
+fn a_folder_that_cannot_be_read_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let missing = folder.path().join("missing");
+    let error = rungc_frontend::programs(&missing, 1).unwrap_err();
+    let start = format!("cannot read `{}`: ", missing.display());
+    assert!(error.to_string().starts_with(&start), "{error}");
+}

@@ -6,7 +6,6 @@ use rungc_sim::LoadError;
 use rungc_sim::plant;
 use rungc_sim::plctest::{self, Case, TestFile};
 use rungc_sim::threads::Threads;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use walkdir::{DirEntry, WalkDir};
@@ -117,7 +116,7 @@ fn find(folder: &Path, names: &mut Vec<PathBuf>) -> std::result::Result<(), Fail
     };
     let entries = WalkDir::new(folder).into_iter();
     for entry in entries.filter_entry(|entry| !is_left_out(entry)) {
-        let path = entry.map_err(io::Error::from)?.into_path();
+        let path = entry.map_err(rungc_frontend::walk_error)?.into_path();
         if path.to_string_lossy().ends_with(ENDING) && !path.is_dir() {
             names.push(path.strip_prefix(".").map_or(path.clone(), Path::to_owned));
         }
