@@ -147,7 +147,7 @@ fn what_a_panel_writes_may_be_a_preset() {
         latched: Some(runs.to_vec()),
         ..Parameters::default()
     };
-    let both = "`D10` and 1 more are read, but nothing writes them";
+    let both = "`D10` and 1 other device are read, but nothing writes them";
     assert_eq!(findings(Parameters::default()), [both]);
     assert_eq!(findings(written(&[run(11, 1)])), [both]);
     let one = ["`D12` is read, but nothing writes it"];

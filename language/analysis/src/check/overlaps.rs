@@ -2,7 +2,8 @@
 //!
 //! Two 32-bit values that begin at neighbouring registers are the business of [`super::pairs`].
 
-use super::Code;
+use super::drives::{Drives, Lasts};
+use super::{Code, Part as Place};
 use crate::accesses::Access;
 use rungc_catalogue::{ArithOp, Basic, Lower, Role};
 use rungc_models::runs::is_special;
@@ -101,8 +102,9 @@ impl Overlaps {
                 let number = first.number.checked_add(offset)?;
                 let device = Device { number, ..first };
                 let &Part { at, span, uses } = self.parts.get(&device)?;
-                // A remainder that is replaced by what is made of it, as the digits of a number are.
-                if uses && is_remainder(code, result, offset) {
+                // A remainder that is replaced by what is made of it, as the digits of a number are, or that is dropped.
+                let unneeded = || uses || is_dropped(code, (first, result), at);
+                if is_remainder(code, result, offset) && unneeded() {
                     return None;
                 }
                 // Two pairs, which have a separate warning.
@@ -163,6 +165,36 @@ fn is_remainder(code: &Code, result: &Result, offset: u32) -> bool {
         Some(Lower::Arith(ArithOp::Div) | Lower::ArithSaturating(ArithOp::Div))
     );
     divides && offset >= result.words / 2
+}
+
+/// Returns true if instruction `at` replaces a remainder whenever there is one, before anything reads it: both have the
+/// same drive, which does not change between them.
+fn is_dropped(code: &Code, (first, result): (Device, &Result), at: usize) -> bool {
+    let mut drives = Drives::default();
+    let mut drives = (0..=at).map(|i| drives.next(code, i));
+    let before = drives.nth(result.at).flatten();
+    let Some((before, then)) = before.zip(drives.last().flatten()) else {
+        return false;
+    };
+    let between = result.at + 1..at;
+    let in_turn = |i| {
+        let leaves = matches!(code.basic(i), Some(Basic::Cj | Basic::Call));
+        !leaves && !matches!(code.part(i), Place::Alone | Place::Unknown)
+    };
+    let lasts =
+        then.lasts == Lasts::Always || between.clone().all(|i| code.part(i) != Place::Start);
+    let numbers = first.number + result.words / 2..first.number + result.words;
+    let reads = |access: Access| {
+        let meets =
+            access.first.number < numbers.end && access.devices().end().number >= numbers.start;
+        access.reads() && access.first.class == first.class && (access.indexed || meets)
+    };
+    let is_pulse = |i: usize| code.resolved.instrs[i].form.pulse;
+    before.signature == then.signature
+        && lasts
+        && (is_pulse(result.at) || !is_pulse(at))
+        && between.clone().all(in_turn)
+        && !between.flat_map(|i| code.accesses(i)).any(reads)
 }
 
 /// Returns true if an instruction sets its target to 0, as is done before a value is put together.

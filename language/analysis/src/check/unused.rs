@@ -340,7 +340,8 @@ fn summary<'d>(
     };
     let message = match others.len() {
         0 => format!("`{first}` is {}", what.replace("them", "it")),
-        n => format!("`{first}` and {n} more are {what}"),
+        1 => format!("`{first}` and 1 other device are {what}"),
+        n => format!("`{first}` and {n} other devices are {what}"),
     };
     let mut diagnostic = code.at(span, message).label(here);
     diagnostic = diagnostic.help(fine_if(outside, outside, found.len()));
