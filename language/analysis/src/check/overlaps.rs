@@ -102,7 +102,7 @@ impl Overlaps {
                 let number = first.number.checked_add(offset)?;
                 let device = Device { number, ..first };
                 let &Part { at, span, uses } = self.parts.get(&device)?;
-                // A remainder that is replaced by what is made of it, as the digits of a number are, or that is dropped.
+                // A remainder that is dropped, or replaced by what is made of it, as the digits of a number are.
                 let unneeded = || uses || is_dropped(code, (first, result), at);
                 if is_remainder(code, result, offset) && unneeded() {
                     return None;
