@@ -10,7 +10,11 @@ const MOST_SIGNAL: f64 = 2000.0;
 
 /// Devices of a program by their comments.
 #[derive(Clone, Debug)]
-pub struct Names(Comments);
+pub struct Names {
+    comments: Comments,
+    /// The largest number of commas in a comment.
+    most_commas: usize,
+}
 
 /// Reads what is watched or set by its device: `D0.f32`. A timer or counter is its current value.
 ///
@@ -47,12 +51,16 @@ fn quoted(text: &str) -> Option<(&str, &str)> {
 impl Names {
     /// The names that the comments of a program give.
     pub fn of(program: &Program) -> Self {
-        Names(Comments::of(program))
+        let comments = Comments::of(program);
+        Names {
+            most_commas: comments.most_commas(),
+            comments,
+        }
     }
 
     /// The devices with this comment.
     pub fn with_comment(&self, name: &str) -> &[Device] {
-        self.0.devices(name)
+        self.comments.devices(name)
     }
 
     /// Splits a list at its commas, but for those in quotes and in comments; `name` finds the name in an item.
@@ -82,9 +90,11 @@ impl Names {
             name.contains(',')
                 && [name, plain]
                     .iter()
-                    .any(|name| !self.0.devices(name).is_empty())
+                    .any(|name| !self.comments.devices(name).is_empty())
         };
-        let longest = ends.chain([list.len()]).rfind(is_comment);
+        // A list may be long, and a comment has few commas.
+        let ends = ends.chain([list.len()]).take(self.most_commas + 1);
+        let longest = ends.filter(is_comment).last();
         longest.unwrap_or_else(|| next(0))
     }
 
@@ -94,11 +104,11 @@ impl Names {
     /// Description of the mistake.
     pub fn target(&self, text: &str) -> Result<Target, String> {
         if let Some((name, view)) = quoted(text) {
-            let device = self.0.device(name)?;
+            let device = self.comments.device(name)?;
             let device = device.ok_or_else(|| self.unknown(name, &not_a_comment(name)))?;
             return target(&format!("{device}{view}"));
         }
-        let target = self.0.target(text, target);
+        let target = self.comments.target(text, target);
         target.map_err(|wrong| self.unknown(text, &wrong))
     }
 
@@ -143,7 +153,7 @@ impl Names {
         another: impl FnOnce(String) -> Result<T, String>,
     ) -> Result<T, String> {
         if let Some((name, "")) = quoted(text) {
-            let device = self.0.device(name)?;
+            let device = self.comments.device(name)?;
             let device = device.ok_or_else(|| self.unknown(name, &not_a_comment(name)))?;
             return read(&device.to_string());
         }
@@ -151,7 +161,7 @@ impl Names {
             Ok(read) => return Ok(read),
             Err(wrong) => wrong,
         };
-        match self.0.device(text)? {
+        match self.comments.device(text)? {
             Some(device) => read(&device.to_string()),
             None => another(wrong).map_err(|wrong| self.unknown(text, &wrong)),
         }
@@ -167,7 +177,7 @@ impl Names {
         if digits < text.len() && DeviceClass::from_prefix(&letters).is_some() {
             return wrong.to_string();
         }
-        match self.0.similar(text) {
+        match self.comments.similar(text) {
             Some(near) => format!("`{text}` is not a device or a comment; did you mean `{near}`?"),
             None => wrong.to_string(),
         }
@@ -307,6 +317,8 @@ mod tests {
         ] {
             assert_eq!(of_setting(list), items);
         }
+        let long = vec!["D0=1"; 20_000].join(",");
+        assert_eq!(of_setting(&long).split('|').count(), 20_000);
         let watched = names.items("Speed, set.f32,Speed,D0", |name| name);
         assert_eq!(watched, ["Speed, set.f32", "Speed", "D0"]);
         assert_eq!(

@@ -13,9 +13,9 @@ pub use kind::Kind;
 use crate::args::{self, Emit};
 use crate::commands::{Failure, parent_dir};
 use clap::ArgMatches;
+use clap::builder::{MapValueParser, PathBufValueParser, TypedValueParser, ValueParserFactory};
 use rungc_project::Project;
 use rungc_syntax::inputs;
-use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::ops::Deref;
@@ -36,9 +36,12 @@ impl OutputPath {
     }
 }
 
-impl From<OsString> for OutputPath {
-    fn from(path: OsString) -> Self {
-        OutputPath(path.into())
+/// Reads any path but an empty one, which names nothing.
+impl ValueParserFactory for OutputPath {
+    type Parser = MapValueParser<PathBufValueParser, fn(PathBuf) -> OutputPath>;
+
+    fn value_parser() -> Self::Parser {
+        PathBufValueParser::new().map(OutputPath)
     }
 }
 
@@ -346,7 +349,7 @@ fn making(path: &Path, mode: u32) -> Result<NamedTempFile, Failure> {
     let folder = parent_dir(path);
     make_folder(folder)?;
     let file = temporary(mode).tempfile_in(folder);
-    file.map_err(|error| at(path, plain(error)))
+    file.map_err(|error| at(path, error))
 }
 
 /// Makes a folder, and those above it.
@@ -363,11 +366,11 @@ pub fn make_folder(folder: &Path) -> Result<(), Failure> {
 
 /// Error of the system, with the path that it is about.
 pub fn at(path: &Path, error: io::Error) -> Failure {
-    Failure::Because(format!("{}: {error}", path.display()))
+    Failure::Because(format!("{}: {}", path.display(), plain(error)))
 }
 
 /// Error of the system, without the path that a library may have added to it.
-pub fn plain(error: io::Error) -> io::Error {
+fn plain(error: io::Error) -> io::Error {
     match (error.raw_os_error(), error.get_ref()) {
         (None, Some(_)) => error.kind().into(),
         _ => error,

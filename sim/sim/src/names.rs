@@ -50,6 +50,12 @@ impl Comments {
         found.map_or(&[], |commented| &commented.devices)
     }
 
+    /// The largest number of commas in a comment.
+    pub fn most_commas(&self) -> usize {
+        let commas = self.0.keys().map(|comment| comment.matches(',').count());
+        commas.max().unwrap_or(0)
+    }
+
     /// The device with this comment, if there is one.
     ///
     /// # Errors

@@ -12,7 +12,7 @@ use super::{
     file_name, findings, interruption, parent_dir, ports, print_text, read, stem,
 };
 use crate::args::{Backend, BuildArgs, Emit, Plan};
-use crate::output::{at, file, plain, refuse_inputs, spare, write_executable, write_file};
+use crate::output::{at, file, refuse_inputs, spare, write_executable, write_file};
 use crate::progress;
 use crate::report::Reporter;
 use fitting::fitting;
@@ -590,6 +590,10 @@ fn bytes(files: Vec<OutFile>) -> Vec<OutFile<Vec<u8>>> {
 /// Rejects a folder that is not empty before a long build, unless it may be written into. Returns whether it is there.
 fn free(folder: &Path, force: bool) -> std::result::Result<bool, Failure> {
     let there = folder.exists();
+    if fs::symlink_metadata(folder).is_ok() && !folder.is_dir() {
+        let why = format!("{} is not a folder; name another one", folder.display());
+        return Err(Failure::Because(why));
+    }
     let occupied = there
         && fs::read_dir(folder)
             .map_err(|e| at(folder, e))?
@@ -620,11 +624,14 @@ fn write_folder(
     let fresh = tempfile::Builder::new()
         .prefix(".rungc-")
         .tempdir_in(beside)
-        .map_err(|e| at(folder, plain(e)))?;
+        .map_err(|e| at(folder, e))?;
     let inside = fresh.path().join("out");
     fs::create_dir(&inside).map_err(|e| at(&inside, e))?;
     for file in files {
-        write_file(&inside.join(&file.path), &file.contents, false)?;
+        let path = inside.join(&file.path);
+        let written = fs::create_dir_all(parent_dir(&path));
+        let written = written.and_then(|()| fs::write(&path, &file.contents));
+        written.map_err(|e| at(&folder.join(&file.path), e))?;
     }
     refuse_inputs(files.iter().map(|file| folder.join(&file.path)))?;
     if !there {

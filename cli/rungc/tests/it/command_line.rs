@@ -346,6 +346,7 @@ fn unknown_topics_get_proposals() {
     let folder = folder(&[]);
     for (topic, near) in [
         ("6799", "6771, 6772, 6773"),
+        ("106", "did you mean `E0106`?"),
         ("M8010", "M8009, M8011"),
         ("d100", "`D100` is a general device"),
         ("DMOVX", "`DMOV`"),

@@ -392,6 +392,79 @@ fn a_refused_folder_is_named_with_the_option() {
     );
 }
 
+/// An empty path names nothing, and says so before the work.
+#[test]
+fn no_option_takes_an_empty_path() {
+    let folder = own();
+    for line in options() {
+        let arguments = line.arguments.split_whitespace();
+        let arguments: Vec<_> = arguments
+            .map(|word| word.replace("OUT", "").replace("PORT", "127.0.0.1:0"))
+            .collect();
+        let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        let output = rungc(folder.path(), &words);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert!(
+            said.contains("a value is required"),
+            "{arguments:?}: {said}"
+        );
+        assert_eq!(text(&output.stdout), "", "{arguments:?}");
+    }
+}
+
+/// Errors of the system name the file that was asked for, not the one in the making, of which nothing stays.
+#[cfg(unix)]
+#[test]
+fn files_that_cannot_be_written_are_named() {
+    let long = "LD X0\nOUT Y0\n".repeat(1000) + "END\n";
+    let folder = folder(&[("a.il", long.as_bytes())]);
+    let at = folder.path();
+    for (args, named) in [
+        ("build a.il --emit c -o out", "out/a.c: "),
+        ("build a.il --emit rust -o out", "out/"),
+        ("build a.il --emit ir -o a.ir", "a.ir: "),
+        ("convert a.il --to csv -o a.csv", "a.csv: "),
+        ("view a.il -o a.html", "a.html: "),
+        ("xref a.il -o a.txt", "a.txt: "),
+    ] {
+        let rungc = env!("CARGO_BIN_EXE_rungc");
+        let limited = format!("trap '' XFSZ; ulimit -f 16; exec '{rungc}' {args}");
+        let mut command = std::process::Command::new("bash");
+        let output = command.args(["-c", &limited]).current_dir(at);
+        let output = output.output().unwrap();
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{args}: {said}");
+        assert!(
+            said.starts_with(&format!("rungc: {named}")),
+            "{args}: {said}"
+        );
+        assert!(
+            !said.contains(".rungc-") && !said.contains(".tmp"),
+            "{args}: {said}"
+        );
+        assert_eq!(fs::read_dir(at).unwrap().count(), 1, "{args}");
+    }
+    assert_eq!(fs::read(at.join("a.il")).unwrap(), long.as_bytes());
+}
+
+/// A folder is not written where something else has its name.
+#[cfg(unix)]
+#[test]
+fn folders_do_not_replace_links_and_files() {
+    let folder = folder(&[("a.il", b"LD X0\nOUT Y0\nEND\n"), ("file", b"")]);
+    let at = folder.path();
+    std::os::unix::fs::symlink("nowhere/far", at.join("link")).unwrap();
+    for path in ["file", "link", "/dev/null"] {
+        let output = rungc(at, &["build", "a.il", "--emit", "c", "-o", path]);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{path}: {said}");
+        let why = format!("rungc: {path} is not a folder; name another one");
+        assert_eq!(said.trim_end(), why);
+    }
+    assert!(!at.join("nowhere").exists());
+}
+
 /// A result that replaces an earlier one by a link leaves the link.
 #[cfg(unix)]
 #[test]

@@ -49,6 +49,29 @@ fn an_interlock_is_proved_and_its_lack_is_shown() {
     insta::assert_snapshot!("violated_under_an_assumption", still);
 }
 
+/// A run that begins with a latched device that is on says where that comes from.
+#[test]
+fn a_latched_start_is_explained() {
+    let list = "LD M500\nOUT Y000\nLD M501\nOUT Y001\nLD X000\nSET M500\nLD X001\nSET M501\nEND\n";
+    let folder = folder(&[("a.il", list.as_bytes())]);
+    let hint = "latched devices start at any value here; with `--cleared`, at 0";
+    let verify = |options: &[&str]| {
+        let args = [
+            "verify",
+            "a.il",
+            "--replay",
+            "interp",
+            "--never",
+            "Y000 & Y001",
+        ];
+        let output = rungc(folder.path(), &[&args[..], options].concat());
+        assert_eq!(output.status.code(), Some(1), "{options:?}");
+        text(&output.stdout)
+    };
+    assert!(verify(&[]).contains(hint), "{}", verify(&[]));
+    assert!(!verify(&["--cleared"]).contains("latched devices start"));
+}
+
 /// A document without times.
 fn untimed(document: &str) -> String {
     let mut parts = document.split(" time=\"");

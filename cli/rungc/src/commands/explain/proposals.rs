@@ -15,7 +15,8 @@ const MOST: usize = 3;
 pub(super) fn unknown(topic: &str, plc: Option<Plc>) -> String {
     let upper = topic.to_uppercase();
     if let Ok(number) = upper.parse::<u16>() {
-        return format!("no PLC has error {number}{}", near_error(number, plc));
+        let near = own_code(number).unwrap_or_else(|| near_error(number, plc));
+        return format!("no PLC has error {number}{near}");
     }
     if let Some((class, number)) = device(&upper) {
         let name = class.number(number);
@@ -57,6 +58,16 @@ pub(super) fn near_special(class: DeviceClass, number: u32, plc: Option<Plc>) ->
         .map(|near| class.number(near).to_string())
         .collect();
     nearest(&names)
+}
+
+/// The diagnostic code with a number, as the end of a message.
+fn own_code(number: u16) -> Option<String> {
+    let with_number = |id: &&str| id[1..].parse() == Ok(number);
+    let id = codes::all()
+        .into_iter()
+        .map(|code| code.id)
+        .find(with_number)?;
+    Some(format!("; did you mean `{id}`?"))
 }
 
 /// The error codes nearest to one that does not exist, as the end of a message.

@@ -80,7 +80,13 @@ impl Result<'_> {
     /// Describes the grounds of the verdict, and its dependencies.
     fn describe(&self, text: &mut String, module: &Module) {
         if let Verdict::Found(trace) = &self.decision.verdict {
-            write_story(text, module, &story(module, self.property, trace));
+            let story = story(module, self.property, trace);
+            write_story(text, module, &story);
+            if story.iter().any(|change| !change.start.is_empty()) {
+                text.push_str(
+                    "            latched devices start at any value here; with `--cleared`, at 0\n",
+                );
+            }
         }
         gaps(text, &self.decision.gaps);
         let unwritten = &self.decision.unwritten;
