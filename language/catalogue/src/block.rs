@@ -45,7 +45,7 @@ const fn block(name: &'static str, fnc: u16, title: &'static str) -> Inst {
         .on(FX3U_L01S)
         .forms(ALL_FORMS)
         .steps(9, 17)
-        .errors(&[6706])
+        .errors(&[6706, 6707])
 }
 
 const fn compare(name: &'static str, fnc: u16, function: RtFn) -> Inst {

@@ -54,12 +54,14 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(7, 7)
         .takes(SUM)
         .flags(&["M8020", "M8022"])
+        .errors(&[6706, 6707])
         .call(RtFn::Tadd)
         .text("Adds two times (hour, minute, second). Past 24:00:00 a day is taken off and M8022 is on; M8020 is on at 0:00:00."),
     clock("TSUB", 163, "Subtract times")
         .steps(7, 7)
         .takes(SUM)
         .flags(&["M8020", "M8021"])
+        .errors(&[6706, 6707])
         .call(RtFn::Tsub)
         .text("Subtracts the time S2 from S1. Below 0:00:00 a day is added and M8021 is on; M8020 is on at 0:00:00."),
     clock("HTOS", 164, "Hours to seconds")
@@ -69,6 +71,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(ALL_FORMS)
         .steps(5, 9)
         .takes(&[src("S", GROUPS.or(PLACES)).word().len(3), dst("D", RESULT_GROUPS.or(PLACES))])
+        .errors(&[6706, 6707])
         .call(RtFn::Htos)
         .text("D = the time at S (hour, minute, second) in seconds."),
     clock("STOH", 165, "Seconds to hours")
@@ -77,6 +80,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(ALL_FORMS)
         .steps(5, 9)
         .takes(&[src("S", GROUPS.or(PLACES)), dst("D", RESULT_GROUPS.or(PLACES)).word().len(3)])
+        .errors(&[6706, 6707])
         .call(RtFn::Stoh)
         .text("Writes the seconds S as hour, minute and second to D, D+1 and D+2."),
     clock("TRD", 166, "Read the clock")

@@ -112,6 +112,7 @@ pub(super) const ROWS: &[Inst] = &[
             mixed_out("D1", RESETTABLE).through(1),
             mixed_out("D2", RESETTABLE).rules(&[Rule::ClassLike(0), Rule::NotBefore(0)]),
         ])])
+        .errors(&[6706, 6707])
         .call(RtFn::Zrst)
         .text("Switches D1 … D2 off, or sets them to 0; timers and counters also open their contacts. Both are of one class."),
     data("DECO", 41, "Decode")
@@ -131,6 +132,7 @@ pub(super) const ROWS: &[Inst] = &[
             mixed_out("D", COILS.or(PLACES)).bits_of(bits_of_n),
             CODED_BITS.rules(&[at_most_4_of_a_word!(1)]),
         ])])
+        .errors(&[6706, 6707])
         .call(RtFn::Deco)
         .text(
             "Takes the low n bits of S (of bits: the n bits from S on) as a number and switches the bit of that number on, counted \
@@ -153,6 +155,7 @@ pub(super) const ROWS: &[Inst] = &[
             dst("D", PLACES.or(INDEX)),
             CODED_BITS.rules(&[at_most_4_of_a_word!(0)]),
         ])])
+        .errors(&[6706, 6707])
         .call(RtFn::Enco)
         .lower_on(&[(LIKE_FX, Lower::Call(RtFn::EncoZero))])
         .text(
@@ -215,7 +218,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(ROOT)
         .variants(&[on(HM).takes(ROOT_HM)])
         .flags(&["M8020", "M8021"])
-        .errors(&[6706])
+        .errors(&[6706, 6707])
         .lower(Lower::Values(ValueOp::Root { clamps: false }))
         .lower_on(&[(HM, Lower::Values(ValueOp::Root { clamps: true }))])
         .text(

@@ -10,6 +10,7 @@ pub use special::special_table;
 
 use super::{Classes, Drive, Forms, Inst, Lower, Param, When, all, find};
 use crate::Form;
+use crate::row::{SOURCE_BITS, WORDS};
 use rungc_models::{Model, ModelId};
 use special::{special_of, special_page};
 use std::fmt::Write;
@@ -206,13 +207,32 @@ fn devices(inst: &Inst, model: ModelId) -> String {
             let _ = writeln!(text, "- {flag}{}: {meaning}", without(inst, flag));
         }
     }
-    if !inst.errors.is_empty() {
+    let errors = errors(inst, Model::get(model));
+    if !errors.is_empty() {
         text.push_str("\n## Errors\n\n");
-        for code in inst.errors {
-            let _ = writeln!(text, "- {code}: {}", error_title(*code));
+        for code in errors {
+            let _ = writeln!(text, "- {code}: {}", error_title(code));
         }
     }
     text
+}
+
+/// Errors that an instruction can cause on a model, by the codes of H1U and H2U: those of its row, and those of
+/// operands that an index register leads out of the device range or that are in a module.
+fn errors(inst: &Inst, model: &Model) -> Vec<u16> {
+    let mut codes = inst.errors.to_vec();
+    for param in inst.params_of(&[], model) {
+        let classes = param.classes_on(model);
+        if param.indexable && classes.meets(WORDS.or(SOURCE_BITS)) {
+            codes.push(6706);
+        }
+        if classes.meets(Classes::BUFFER) {
+            codes.push(6750);
+        }
+    }
+    codes.sort_unstable();
+    codes.dedup();
+    codes
 }
 
 /// The models of an instruction that do not use one of its special devices, in parentheses.

@@ -172,6 +172,7 @@ pub(super) const ROWS: &[Inst] = &[
             count("n", 0, 7),
         ])
         .flags(&["M8029"])
+        .errors(&[6706, 6707])
         .call(RtFn::Segl)
         .text(
             "Shows S (n from 4 on: and S+1) on a display of four digits: data on D … D+3 (second group: D+10 …), strobes on D+4 … D+7. \
@@ -186,6 +187,7 @@ pub(super) const ROWS: &[Inst] = &[
             coil("D2", Classes::Y).len(8),
             count("n", 0, 3),
         ])
+        .errors(&[6706, 6707])
         .call(RtFn::Arws)
         .text(
             "Edits the digits of D1 with four keys, down, up, right and left from S on, and shows it at D2 as SEGL does.",
@@ -254,6 +256,7 @@ pub(super) const ROWS: &[Inst] = &[
             on(INOVANCE).takes(RD3A_INOVANCE),
             on(BOARDS).takes(RD3A_BOARD),
         ])
+        .errors(&[6706, 6707, 6750])
         .call(RtFn::Rd3a)
         .lower_on(&[(L01S, Lower::Call(RtFn::Rd3aModbus)), (BOARDS, Lower::Call(RtFn::Rd3aBoard))])
         .text(
@@ -270,6 +273,7 @@ pub(super) const ROWS: &[Inst] = &[
             on(INOVANCE).takes(WR3A_INOVANCE),
             on(BOARDS).takes(WR3A_BOARD),
         ])
+        .errors(&[6706, 6707, 6750])
         .call(RtFn::Wr3a)
         .lower_on(&[(L01S, Lower::Call(RtFn::Wr3aModbus)), (BOARDS, Lower::Call(RtFn::Wr3aBoard))])
         .text(
@@ -284,6 +288,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(5, 5)
         .takes(&[src("S", CONSTANTS.or(DATA)).limits(0, 7), dst("D", RESULTS)])
+        .errors(&[6706, 6750])
         .call(RtFn::Vrrd)
         .text("D = the position of potentiometer S, 0 to 255."),
     io("VRSC", 86, "Read a potentiometer as a switch")
@@ -293,6 +298,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(5, 5)
         .takes(&[src("S", CONSTANTS.or(DATA)).limits(0, 7), dst("D", RESULTS)])
+        .errors(&[6706, 6750])
         .call(RtFn::Vrsc)
         .text("D = the position of potentiometer S as a number from 0 to 10."),
     io("RBFM", 278, "Read from a module in parts")
@@ -307,6 +313,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("n2", CONSTANTS.or(DATA)).limits(1, 32767),
         ])
         .flags(&["M8029", "M8328", "M8329"])
+        .errors(&[6706, 6750])
         .call(RtFn::Rbfm)
         .text("Copies n1 words of the buffer memory of module m1 from address m2 on to D, n2 words in each scan."),
     io("WBFM", 279, "Write to a module in parts")
@@ -321,6 +328,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("n2", CONSTANTS.or(DATA)).limits(1, 32767),
         ])
         .flags(&["M8029", "M8328", "M8329"])
+        .errors(&[6706, 6750])
         .call(RtFn::Wbfm)
         .text("Copies n1 words from S on to the buffer memory of module m1 from address m2 on, n2 words in each scan."),
 ];

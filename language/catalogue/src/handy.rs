@@ -78,6 +78,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_HM_FX1)
         .forms(ALL_FORMS)
         .takes(SEARCH)
+        .errors(&[6706, 6707])
         .call(RtFn::Ser)
         .text(
             "Compares the n values from S1 on with S2 and writes: D how many are equal, D+1 and D+2 where the first and the last of \
@@ -173,6 +174,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("n", CONSTANTS.or(DATA)).limits(1, 6).rules(&[Rule::AtMost(2)]),
         ])
         .flags(&["M8029"])
+        .errors(&[6706, 6707])
         .call(RtFn::Sort)
         .text(
             "Sorts the m1 rows of the table at S, which has m2 columns stored one after the other, by column n and writes it to D. It takes \

@@ -307,6 +307,7 @@ pub(super) const ROWS: &[Inst] = &[
             dst("D", REGISTERS.or(INDEX)).len(3),
         ])
         .flags(&["M8100", "M8101", "M8102", "M8103", "M8104", "M8105"])
+        .errors(&[6706])
         .lower(Lower::Density)
         .text("Counts pulses of S1 in windows of S2 ms: D the last full window, D+1 the running one, D+2 what is left of it."),
     fast("PLSY", 57, "Pulse output")
@@ -323,7 +324,7 @@ pub(super) const ROWS: &[Inst] = &[
             on(FX3U_ITSELF).takes(PLSY_FX3U),
         ])
         .flags(&["M8029"])
-        .errors(&[6770, 6771])
+        .errors(&[6706, 6707, 6770, 6771])
         .call(RtFn::Plsy)
         .stops_undriven()
         .lower_on(&[(HM, Lower::Call(RtFn::AxisPlsy))])
@@ -336,6 +337,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("S2", VALUES).limits(1, 32767),
             PULSE_OUTPUT,
         ])
+        .errors(&[6706, 6707])
         .call(RtFn::Pwm)
         .stops_undriven()
         .text("Sends pulses S1 ms wide with a period of S2 ms on output D as long as it is driven."),
@@ -355,7 +357,7 @@ pub(super) const ROWS: &[Inst] = &[
             on(L01S).takes(PLSR_L01S),
         ])
         .flags(&["M8029"])
-        .errors(&[6770])
+        .errors(&[6706, 6707, 6770])
         .call(RtFn::Plsr)
         .stops_undriven()
         .lower_on(&[(HM, Lower::Call(RtFn::AxisPlsr))])

@@ -586,7 +586,8 @@ pub struct Inst {
     pub flags: &'static [&'static str],
     /// Maximum number of uses in a program; `None`: any number of times.
     pub max_uses: Option<u32>,
-    /// The PLC's error codes that it can raise in a run.
+    /// The PLC's error codes that it can raise in a run, but for those of any operand: a device out of range, a module
+    /// that is not there.
     pub errors: &'static [u16],
     /// Models that have it.
     pub models: ModelSet,

@@ -132,7 +132,7 @@ pub(super) const ROWS: &[Inst] = &[
              instead (not on HM).",
         ),
     convert("BCD", 18, "Binary to BCD")
-        .errors(&[6707])
+        .errors(&[6706, 6707])
         .lower(Lower::Values(ValueOp::ToBcd { clamps: false }))
         .lower_on(&[(HM, Lower::Values(ValueOp::ToBcd { clamps: true }))])
         .text(
@@ -140,7 +140,7 @@ pub(super) const ROWS: &[Inst] = &[
              stay at the end of the range.",
         ),
     convert("BIN", 19, "BCD to binary")
-        .errors(&[6707])
+        .errors(&[6706, 6707])
         .lower(Lower::Values(ValueOp::FromBcd { checks: true }))
         .lower_on(&[(HM, Lower::Values(ValueOp::FromBcd { checks: false }))])
         .text("Reads the four-bit digits of S as a decimal number. A digit above 9 is an error; HM does not check."),
@@ -173,7 +173,7 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(5, 9)
         .on(NOT_HM_FX1)
         .takes(GRAY)
-        .errors(&[6706])
+        .errors(&[6706, 6707])
         .lower(Lower::Values(ValueOp::ToGray))
         .text("D = S in Gray code. A negative S is an error."),
     row("GBIN", "Gray code to binary", "h1u-h2u-programming §4.3.13")
@@ -182,7 +182,7 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(5, 9)
         .on(NOT_HM_FX1)
         .takes(GRAY)
-        .errors(&[6706])
+        .errors(&[6706, 6707])
         .lower(Lower::Values(ValueOp::FromGray))
         .text("D = the number whose Gray code is S. A negative S is an error."),
 ];

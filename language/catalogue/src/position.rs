@@ -90,7 +90,7 @@ const fn position(name: &'static str, fnc: u16, title: &'static str) -> Inst {
         .forms(W16_W32)
         .steps(9, 17)
         .flags(&["M8029"])
-        .errors(&[6706])
+        .errors(&[6706, 6707])
 }
 
 pub(super) const ROWS: &[Inst] = &[
@@ -125,6 +125,7 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(13, 13)
         .on(NOT_HM.without(L01S))
         .takes(&[bit("S", BITS).len(3), coil("D1", COILS).len(3), dst("D2", RESULTS)])
+        .errors(&[6706])
         .call(RtFn::Abs)
         .text("Reads the absolute position of a servo amplifier by three inputs and three outputs into the pair D2."),
     position("ZRN", 156, "Zero return")

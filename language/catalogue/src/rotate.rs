@@ -124,7 +124,7 @@ const fn rotate(name: &'static str, fnc: u16, title: &'static str, lower: Lower)
         .steps(5, 9)
         .takes(ROTATE)
         .flags(&["M8022"])
-        .errors(&[6706])
+        .errors(&[6706, 6707])
         .lower(lower)
 }
 
@@ -133,7 +133,7 @@ const fn shift(name: &'static str, fnc: u16, title: &'static str, function: RtFn
         .fnc(fnc)
         .forms(W16_P)
         .steps(9, 9)
-        .errors(&[6706])
+        .errors(&[6706, 6707])
         .call(function)
 }
 

@@ -277,7 +277,9 @@ const fn serial(name: &'static str, fnc: u16, title: &'static str) -> Inst {
 
 /// An instruction that `[canlink]` of a project becomes.
 const fn canlink(name: &'static str, title: &'static str) -> Inst {
-    row(name, title, "h1u-h2u-programming §5.9").on(INOVANCE)
+    row(name, title, "h1u-h2u-programming §5.9")
+        .on(INOVANCE)
+        .errors(&[6706, 6707])
 }
 
 const fn modbus_hm(name: &'static str, title: &'static str, function: RtFn) -> Inst {
@@ -305,6 +307,7 @@ const fn cassette(name: &'static str, fnc: u16, title: &'static str, text: &'sta
         .forms(W16_P)
         .steps(5, 5)
         .on(FX3U)
+        .errors(&[6706])
         .todo(CASSETTE)
         .text(text)
 }
@@ -319,6 +322,7 @@ pub(super) const ROWS: &[Inst] = &[
             on(INOVANCE).takes(RS_INOVANCE),
         ])
         .flags(&["M8121", "M8122", "M8123", "M8124", "M8129", "M8161", "D8120"])
+        .errors(&[6706, 6707])
         .call(RtFn::Rs)
         .text(
             "Sends m bytes from S on when the program sets M8122, and receives n bytes to D; M8123 is on when they are there. On H1U and \
@@ -363,7 +367,7 @@ pub(super) const ROWS: &[Inst] = &[
             ]),
         ])
         .flags(&["M8161"])
-        .errors(&[6706])
+        .errors(&[6706, 6707])
         .call(RtFn::Hex)
         .lower_on(&[(HM, Lower::Call(RtFn::HexBytes))])
         .text(
@@ -402,7 +406,7 @@ pub(super) const ROWS: &[Inst] = &[
             any("n1").limits(0, 3),
         ])])
         .flags(&["M8122", "M8123", "M8262", "M8263", "M8272", "M8273"])
-        .errors(&[6376, 6377])
+        .errors(&[6376, 6377, 6706, 6707])
         .call(RtFn::Rs2)
         .text("As RS, on port n1. On FX3 and L01S a header, a terminator and a sum may stand around the data."),
     serial("PID", 88, "PID control")
@@ -431,12 +435,14 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(13, 13)
         .on(INOVANCE)
         .takes(&[any("S1"), any("S2").rules(&[CAN_IDENTIFIER]), src("D", DATA).len(4), number("n", 8)])
+        .errors(&[6706, 6707])
         .call(RtFn::Cantx)
         .text("Sends n bytes from D on, high byte first, with the identifier in S1 and S2."),
     serial("CANRX", 91, "Receive by CAN")
         .steps(13, 13)
         .on(INOVANCE)
         .takes(&[any("S1"), any("S2"), dst("D", DATA).len(4), number("n", 8)])
+        .errors(&[6706, 6707])
         .call(RtFn::Canrx)
         .text("Receives n bytes with the identifier in S1 and S2 to D, high byte first."),
     canlink("CANNET", "CANlink: this station")

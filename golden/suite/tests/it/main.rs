@@ -12,6 +12,7 @@ mod differential;
 mod embedded;
 mod emitted_page;
 mod empty_tables;
+mod error_codes;
 mod explore_faults;
 mod failing_constants;
 mod faults;

@@ -237,11 +237,8 @@ fn devices(inst: &Inst, model: &Model) -> String {
 /// Errors of the model that the instruction can cause.
 fn errors(inst: &Inst, model: &Model) -> String {
     let mut text = String::new();
-    let mut codes: Vec<u16> = inst
-        .errors
-        .iter()
-        .filter_map(|&code| code_on(code, model))
-        .collect();
+    let codes = super::errors(inst, model).into_iter();
+    let mut codes: Vec<u16> = codes.filter_map(|code| code_on(code, model)).collect();
     codes.sort_unstable();
     codes.dedup();
     for code in codes {
