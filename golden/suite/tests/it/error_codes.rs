@@ -81,7 +81,7 @@ fn pages_list_the_errors_of_their_instructions() {
     for model in [ModelId::H2u, ModelId::L01s, ModelId::Fx3u] {
         let mut rng = Rng::new(11);
         let all = candidates(model).into_iter();
-        for candidate in all.filter(|candidate| is_meant(candidate)) {
+        for candidate in all.filter(is_meant) {
             let listed = listed(&candidate, model);
             for _ in 0..DRAWS {
                 let text = candidate.draw(&mut rng, model);
