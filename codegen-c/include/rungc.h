@@ -243,31 +243,112 @@ static inline bool plc_active(const bool *states, size_t count, const bool *memo
     return (plc_any(states, count) | plc_any(memories, number)) != 0u;
 }
 
-/* Finds the next of `count` blocks of a step ladder that runs, from number *at on: its state is on, or has gone off since the block
-   ran. Each has two memories: whether a transition left the state, which goes off here, and whether it was on. */
-static inline bool plc_next_step(unsigned *at, bool *states, bool *memories, unsigned count)
+/* ---- Step ladders --------------------------------------------------------------------------------------------------- */
+
+/* Functions that few scans call are not inline. */
+#if defined(__GNUC__)
+#define PLC_RARE static __attribute__((noinline, unused))
+#define PLC_OFTEN static inline __attribute__((always_inline))
+#else
+#define PLC_RARE static inline
+#define PLC_OFTEN static inline
+#endif
+
+/* Up to 32 blocks of a step ladder whose states are neighbours, a bit for each. A block runs while its state is on, and once more
+   when it has gone off. */
+typedef struct plc_steps {
+    uint32_t run;    /* blocks that are still to run in this scan */
+    uint32_t now;    /* the block that runs; 0 outside of them */
+    uint32_t was_on; /* blocks whose states were on when they ran last */
+    uint32_t left;   /* states that a transition left: they go off where their blocks begin */
+} plc_steps;
+
+/* Up to 32 bits as a number, the first one as bit 0. */
+static inline uint32_t plc_gather(const bool *bits, size_t count)
 {
-    unsigned i = *at;
-    while (i < count) {
-        bool *const left = &memories[2u * i];
-        bool *const was_on = &memories[(2u * i) + 1u];
-        /* Most are off: four at a time. */
-        if (((count - i) >= 4u) && !plc_active(&states[i], 4, left, 8)) {
-            i += 4u;
-            continue;
-        }
-        if (plc_take(left)) {
-            states[i] = false;
-        }
-        const bool runs = states[i] | *was_on;
-        *was_on = states[i];
-        if (runs) {
-            *at = i;
-            return true;
-        }
-        i++;
+    /* Moves the first bit of each of four bytes to bits 24 to 27, and those 4 bits further up to bits 28 to 31: the lowest byte
+       is the first or the last one. */
+    const uint32_t one = 1;
+    uint8_t first;
+    (void)memcpy(&first, &one, 1);
+    const uint32_t places = (first == 1u) ? 0x01020408u : 0x08040201u;
+
+    uint32_t word = 0;
+    const size_t rest = count % 8u;
+    for (size_t i = count; i != rest; i -= 8u) {
+        uint32_t low;
+        uint32_t high;
+        (void)memcpy(&low, &bits[i - 8u], sizeof low);
+        (void)memcpy(&high, &bits[i - 4u], sizeof high);
+        word = (word << 8) | (((low | (high << 4)) * places) >> 24);
     }
-    return false;
+    for (size_t i = rest; i != 0u; i--) {
+        word = (word << 1) | (bits[i - 1u] ? 1u : 0u);
+    }
+    return word;
+}
+
+/* Begins a scan of `count` blocks with these states. */
+static inline void plc_begin_steps(plc_steps *steps, const bool *states, size_t count)
+{
+    const uint32_t on = plc_gather(states, count);
+    steps->run = on | steps->was_on;
+    steps->was_on = on & ~steps->left;
+}
+
+/* Number of the block that runs. */
+PLC_OFTEN unsigned plc_step(const plc_steps *steps)
+{
+#if defined(__GNUC__)
+    return (unsigned)__builtin_ctz(steps->now);
+#else
+    unsigned number = 0;
+    for (uint32_t bit = steps->now; bit > 1u; bit >>= 1) {
+        number++;
+    }
+    return number;
+#endif
+}
+
+/* Begins the next block that runs; false if there is none. */
+PLC_OFTEN bool plc_next_step(plc_steps *steps, bool *states)
+{
+    const uint32_t run = steps->run;
+    const uint32_t now = run & (0u - run);
+    steps->now = now;
+    if (now == 0u) {
+        return false;
+    }
+    steps->run = run ^ now;
+    if ((steps->left & now) != 0u) {
+        steps->left ^= now;
+        states[plc_step(steps)] = false;
+    }
+    return true;
+}
+
+/* Switches a state on, which is not left then. If its block comes later in this scan, it runs. */
+PLC_RARE void plc_enter_step(plc_steps *steps, bool *states, unsigned number)
+{
+    const uint32_t bit = UINT32_C(1) << number;
+    const uint32_t later = ~(steps->now | (steps->now - 1u));
+    states[number] = true;
+    steps->left &= ~bit;
+    steps->run |= bit & later;
+    steps->was_on |= bit & later;
+}
+
+/* Leaves the state of the block that runs. */
+PLC_RARE void plc_leave_step(plc_steps *steps)
+{
+    steps->left |= steps->now;
+}
+
+/* A transition: enters another state, and leaves the one of the block that runs. */
+PLC_RARE void plc_transfer(plc_steps *steps, bool *states, unsigned number)
+{
+    plc_enter_step(steps, states, number);
+    plc_leave_step(steps);
 }
 
 /* ---- Words ---------------------------------------------------------------------------------------------------------- */

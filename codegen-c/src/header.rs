@@ -125,6 +125,10 @@ fn private_field(out: &mut String, size: &mut Size, field: Private) {
             let comment = "last states of edge contacts, pulses and steps";
             (format!("bool edge[{count}];"), comment, count, 1)
         }
+        Private::Steps(count) => {
+            let comment = "which blocks of step ladders run";
+            (format!("plc_steps steps[{count}];"), comment, 16 * count, 4)
+        }
         Private::Flag { flag, outside } => {
             let volatile = if outside { "volatile " } else { "" };
             (format!("{volatile}bool {};", flag.name), flag.meaning, 1, 1)

@@ -1,43 +1,54 @@
 //! Blocks of a step ladder that a scan leaves out while their states are off.
 
+use crate::code::Code;
 use crate::fields::PrintStorage;
 use crate::page::Page;
 use crate::writer::Writer;
 use rungc_emit::comments;
 use rungc_emit::plan::Node;
-use rungc_emit::steps::{self, Case};
-use rungc_ir::node::Steps;
+use rungc_emit::steps::{self, Case, Ladder, Move};
+use rungc_emit::temps::ON;
+use rungc_ir::node::{EdgeId, Steps};
 use rungc_syntax::DeviceClass::S;
 
 impl<'m> Writer<'_, 'm> {
     /// Writes blocks: as cases, or with their test.
     pub(crate) fn steps(&mut self, page: &mut Page, of: &Steps, body: &[Node<'m>]) {
-        match steps::cases(self.module, self.plan, of, body) {
-            Some(cases) => self.cases(page, of, &cases),
+        let plan = self.plan;
+        let ladder = plan.ladders.find(of);
+        let cases = ladder.and_then(|_| steps::cases(self.module, plan, of, body));
+        match ladder.zip(cases) {
+            Some(((number, ladder), cases)) => self.cases(page, number, ladder, &cases),
+            None if steps::are_tested_within(of) => self.nodes(page, body),
             None => self.tested(page, of, body),
         }
     }
 
     /// Writes blocks as the cases of a choice, in a loop over those that run.
-    fn cases(&mut self, page: &mut Page, of: &Steps, cases: &[Case<'_, 'm>]) {
-        let variable = self.loop_variable();
-        let mut state = String::new();
-        self.fields.access(&mut state, S, of.first);
-        page.open(&format!(
-            "for (unsigned {variable} = 0; plc_next_step(&{variable}, &{state}, &plc->edge[{}], {}u); {variable}++) {{",
-            of.memory.0, of.states
+    fn cases(&mut self, page: &mut Page, number: usize, ladder: &Ladder, cases: &[Case<'_, 'm>]) {
+        let (steps, first) = (format!("&plc->steps[{number}]"), ladder.first);
+        let states = self.state(first);
+        page.line(&format!(
+            "plc_begin_steps({steps}, &{states}, {}u);",
+            ladder.states
         ));
-        page.open(&format!("switch ({variable}) {{"));
+        page.open(&format!("while (plc_next_step({steps}, &{states})) {{"));
+        page.line(&format!("const unsigned step = plc_step({steps});"));
+        if cases.iter().any(|case| case.on.is_some()) {
+            let state = match states.strip_suffix("[0]") {
+                Some(array) => format!("{array}[step]"),
+                None => states.replace(']', "u + step]"),
+            };
+            page.line(&format!("const bool {ON} = {state};"));
+        }
+        page.open("switch (step) {");
         page.back();
         self.loops += 1;
-        for ((n, case), state) in (0..).zip(cases).zip(of.first..) {
-            let beside = comments::device(self.fields, S, state);
-            page.open_beside(&format!("case {n}: {{"), &beside);
+        for case in cases {
+            let beside = comments::device(self.fields, S, case.state);
+            page.open_beside(&format!("case {}: {{", case.state - first), &beside);
             if let Some(network) = case.network {
                 self.network(page, network);
-            }
-            if let Some(on) = case.on {
-                self.stmt(page, on);
             }
             self.nodes(page, case.rest);
             page.line("break;");
@@ -50,11 +61,37 @@ impl<'m> Writer<'_, 'm> {
         page.close();
     }
 
+    fn state(&self, number: u32) -> String {
+        let mut state = String::new();
+        self.fields.access(&mut state, S, number);
+        state
+    }
+
+    /// Writes a change of the bits of a ladder.
+    pub(crate) fn step_move(&mut self, page: &mut Page, change: Move) {
+        let mut code = Code::new();
+        let (function, number, entered) = match change {
+            Move::Enter(number, state) => ("plc_enter_step", number, Some(state)),
+            Move::Transfer(number, state) => ("plc_transfer", number, Some(state)),
+            Move::Leave(number) => ("plc_leave_step", number, None),
+        };
+        code.open(&format!("{function}(&plc->steps[{number}]"));
+        let ladder = self.plan.ladders.get(number);
+        if let Some((ladder, state)) = ladder.zip(entered) {
+            code.argument(format_args!("&{}", self.state(ladder.first)));
+            code.argument(format_args!("{}u", state - ladder.first));
+        }
+        code.close(");");
+        let beside = entered.map(|state| comments::device(self.fields, S, state));
+        page.commented(&code, beside.as_deref());
+    }
+
     /// Writes blocks and their test.
     fn tested(&mut self, page: &mut Page, of: &Steps, body: &[Node<'m>]) {
-        let mut state = String::new();
-        self.fields.access(&mut state, S, of.first);
+        let state = self.state(of.first);
+        let ladders = &self.plan.ladders;
         let memories = of.memory.0..of.memory.0 + of.memories;
+        let memories = memories.map(|memory| ladders.edge(EdgeId(memory)));
         let test = if of.states == 1 {
             let memories = memories.map(|memory| format!("plc->edge[{memory}]"));
             let tests: Vec<String> = [state].into_iter().chain(memories).collect();
@@ -63,7 +100,7 @@ impl<'m> Writer<'_, 'm> {
                 false => tests.join(" | "),
             }
         } else {
-            let (states, first, count) = (of.states, of.memory.0, of.memories);
+            let (states, first, count) = (of.states, ladders.edge(of.memory), of.memories);
             format!("plc_active(&{state}, {states}, &plc->edge[{first}], {count})")
         };
         page.open(&format!("if ({test}) {{"));

@@ -36,7 +36,11 @@ pub struct Unit {
 /// it. `misra`: conditions are Boolean expressions as MISRA C:2012 understands them (rule 14.4).
 pub fn unit(module: &Module, by_number: bool, in_lanes: bool, misra: bool) -> Unit {
     let fields = Storage::new(module);
-    let plan = Plan::new(module);
+    let plan = match in_lanes {
+        // Each memory of an edge is one of all lanes.
+        true => Plan::without_ladders(module),
+        false => Plan::new(module),
+    };
     let total: u64 = plan.functions.iter().map(|f| f.weight).sum();
     let single = total <= FILE_WEIGHT;
     let storage = if single { "static " } else { "" };
@@ -506,8 +510,12 @@ impl Printer<'_> {
     fn forget(&self, out: &mut String) -> bool {
         let name = self.name();
         let mut body = String::new();
-        if self.module.edges > 0 {
+        let ladders = &self.plan.ladders;
+        if ladders.edges(self.module) > 0 {
             body.push_str("    (void)memset(plc->edge, 0, sizeof plc->edge);\n");
+        }
+        if ladders.count() > 0 {
+            body.push_str("    (void)memset(plc->steps, 0, sizeof plc->steps);\n");
         }
         body.push_str(&events::forget(self.module));
         if self.module.run_states > 0 {

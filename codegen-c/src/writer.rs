@@ -167,6 +167,11 @@ impl<'a, 'm> Writer<'a, 'm> {
     pub(crate) fn nodes(&mut self, page: &mut Page, nodes: &[Node<'m>]) {
         let mut i = 0;
         while let Some(node) = nodes.get(i) {
+            if let Some((change, count)) = self.plan.ladders.next_move(self.module, &nodes[i..]) {
+                self.step_move(page, change);
+                i += count;
+                continue;
+            }
             i += 1;
             if Plan::is_silent(self.module, node, nodes.get(i)) {
                 continue;
@@ -209,7 +214,7 @@ impl<'a, 'm> Writer<'a, 'm> {
 
     /// Writes where the memory of an edge is: `plc->edge[3]`, `plc->edge[3 + 2 * i]`.
     pub(crate) fn edge_memory(&self, out: &mut String, edge: &Edge) {
-        let first = edge.memory.0;
+        let first = self.plan.ladders.edge(edge.memory);
         let _ = match (edge.index.map(|index| self.module.expr(index)), first) {
             (Some(Expr::Stride(_, 1)), 0) => write!(out, "plc->edge[{}]", self.iteration),
             (Some(Expr::Stride(_, 1)), _) => write!(out, "plc->edge[{first} + {}]", self.iteration),

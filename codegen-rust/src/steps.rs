@@ -4,12 +4,12 @@ use crate::format::{Arm, Body};
 use crate::generate::Generator;
 use crate::storage::{PrintField, PrintStorage};
 use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use quote::{ToTokens, format_ident, quote};
 use rungc_emit::comments;
 use rungc_emit::plan::Node;
-use rungc_emit::steps::{self, Case};
-use rungc_emit::storage::At;
-use rungc_ir::node::Steps;
+use rungc_emit::steps::{self, Case, Ladder, Move};
+use rungc_emit::temps::ON;
+use rungc_ir::node::{EdgeId, Steps};
 use rungc_syntax::DeviceClass::S;
 use std::rc::Rc;
 
@@ -17,41 +17,64 @@ impl Generator<'_> {
     /// Blocks: as cases, or with their test.
     pub(crate) fn steps(&mut self, body: &mut Body, of: &Steps, inner: &[Node]) {
         let plan = Rc::clone(&self.plan);
-        let cases = steps::cases(self.module, &plan, of, inner);
-        match cases.zip(self.ranges(of)) {
-            Some((cases, ranges)) => self.cases(body, of, &cases, ranges),
+        let ladder = plan.ladders.find(of);
+        let cases = ladder.and_then(|_| steps::cases(self.module, &plan, of, inner));
+        match ladder.zip(cases) {
+            Some(((number, ladder), cases)) => self.cases(body, number, ladder, &cases),
+            None if steps::are_tested_within(of) => body.append(self.nodes(inner)),
             None => self.tested(body, of, inner),
         }
     }
 
     /// Blocks as the cases of a choice, in a loop over those that run.
-    fn cases(&mut self, body: &mut Body, of: &Steps, cases: &[Case], ranges: [TokenStream; 2]) {
-        let next = self.rt("next_step");
-        let [states, memories] = ranges;
+    fn cases(&mut self, body: &mut Body, number: usize, ladder: &Ladder, cases: &[Case]) {
+        let steps = steps_field(number);
+        let states = self.neighbours(ladder.first, ladder.states);
         let mut arms = Vec::new();
-        for ((n, case), state) in (0_usize..).zip(cases).zip(of.first..) {
+        for case in cases {
             let mut arm = Body::default();
             if let Some(network) = case.network {
                 self.heading(&mut arm, network);
             }
-            if let Some(on) = case.on {
-                arm.code(self.statement(on));
-            }
             arm.append(self.nodes(case.rest));
             arms.push(Arm {
-                number: Literal::usize_unsuffixed(n),
-                beside: comments::device(&self.storage, S, state),
+                number: Literal::u32_unsuffixed(case.state - ladder.first),
+                beside: comments::device(&self.storage, S, case.state),
                 body: arm,
             });
         }
+        let on = match cases.iter().any(|case| case.on.is_some()) {
+            true => format_ident!("{ON}").into_token_stream(),
+            false => quote!(_),
+        };
         let mut inner = Body::default();
-        inner.arms(quote!(match at), arms);
-        inner.code(quote!(at += 1;));
-        body.code(quote!(let mut at = 0;));
+        inner.arms(quote!(match step), arms);
+        body.code(quote!(#steps.begin(&#states);));
         body.block(
-            quote!(while #next(&mut at, &mut #states, &mut #memories)),
+            quote!(while let Some((step, #on)) = #steps.next(&mut #states)),
             inner,
         );
+    }
+
+    /// A change of the bits of a ladder.
+    pub(crate) fn step_move(&mut self, body: &mut Body, change: Move) {
+        let plan = Rc::clone(&self.plan);
+        let (method, number, state) = match change {
+            Move::Enter(number, state) => ("enter", number, state),
+            Move::Transfer(number, state) => ("transfer", number, state),
+            Move::Leave(number) => {
+                let steps = steps_field(number);
+                return body.code(quote!(#steps.leave();));
+            }
+        };
+        let Some(ladder) = plan.ladders.get(number) else {
+            return;
+        };
+        let (steps, method) = (steps_field(number), format_ident!("{method}"));
+        let states = self.neighbours(ladder.first, ladder.states);
+        let at = Literal::u32_unsuffixed(state - ladder.first);
+        body.code(quote!(#steps.#method(&mut #states, #at);));
+        body.trailing_comment(&comments::device(&self.storage, S, state));
     }
 
     /// Blocks and their test.
@@ -72,37 +95,34 @@ impl Generator<'_> {
             false => state,
         };
         let memories = (of.memory.0..of.memory.0 + of.memories).map(|memory| {
-            let memory = Literal::u32_unsuffixed(memory);
+            let memory = Literal::u32_unsuffixed(self.plan.ladders.edge(EdgeId(memory)));
             quote!(| plc.edges[#memory].0)
         });
         quote!(#state #(#memories)*)
     }
 
     fn test_of_many(&mut self, of: &Steps) -> TokenStream {
-        let Some([states, memories]) = self.ranges(of) else {
-            return quote!(true);
-        };
         let any = self.rt("any_active");
-        quote!(#any(&#states, &#memories))
+        let states = self.neighbours(of.first, of.states);
+        let first = self.plan.ladders.edge(of.memory);
+        let [first, last] = [first, first + of.memories].map(Literal::u32_unsuffixed);
+        quote!(#any(&#states, &plc.edges[#first..#last]))
     }
 
-    /// The states and the memories of some blocks, as parts of arrays.
-    fn ranges(&self, of: &Steps) -> Option<[TokenStream; 2]> {
-        let field = self.storage.find(S, of.first)?;
-        let name = field.name();
-        let At::Element(begin) = field.at(of.first) else {
-            return None;
+    /// Neighbouring states, as a part of an array.
+    fn neighbours(&self, first: u32, count: u32) -> TokenStream {
+        let Some(field) = self.storage.find(S, first) else {
+            return quote!([]);
         };
-        let [begin, end, first, last] = [
-            begin,
-            begin + of.states,
-            of.memory.0,
-            of.memory.0 + of.memories,
-        ]
-        .map(Literal::u32_unsuffixed);
-        Some([
-            quote!(plc.#name[#begin..#end]),
-            quote!(plc.edges[#first..#last]),
-        ])
+        let begin = first - field.first;
+        let [begin, end] = [begin, begin + count].map(Literal::u32_unsuffixed);
+        let name = field.name();
+        quote!(plc.#name[#begin..#end])
     }
+}
+
+/// The bits of a ladder.
+fn steps_field(number: usize) -> TokenStream {
+    let number = Literal::usize_unsuffixed(number);
+    quote!(plc.steps[#number])
 }

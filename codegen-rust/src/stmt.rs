@@ -20,9 +20,15 @@ impl Generator<'_> {
     pub fn nodes(&mut self, nodes: &[Node]) -> Body {
         let plan = Rc::clone(&self.plan);
         let mut body = Body::default();
-        let mut nodes = nodes.iter().peekable();
-        while let Some(node) = nodes.next() {
-            let next = nodes.peek().copied();
+        let mut i = 0;
+        while let Some(node) = nodes.get(i) {
+            if let Some((change, count)) = plan.ladders.next_move(self.module, &nodes[i..]) {
+                self.step_move(&mut body, change);
+                i += count;
+                continue;
+            }
+            i += 1;
+            let next = nodes.get(i);
             if Plan::is_silent(self.module, node, next) {
                 continue;
             }
@@ -38,7 +44,7 @@ impl Generator<'_> {
                 self.named.insert(user_of_edge, edge);
                 body.code(self.name_parts(&next.roots()));
                 self.node(&mut body, next);
-                nodes.next();
+                i += 1;
                 continue;
             }
             self.node(&mut body, node);
@@ -195,7 +201,8 @@ impl Generator<'_> {
 
     /// `plc.edges[0]`.
     fn edge_memory(&self, edge: &Edge) -> TokenStream {
-        let first = Literal::u32_unsuffixed(edge.memory.0);
+        let memory = self.plan.ladders.edge(edge.memory);
+        let first = Literal::u32_unsuffixed(memory);
         let further = match edge.index.map(|index| self.module.expr(index)) {
             Some(&Expr::Stride(_, 1)) => Some(quote!(i)),
             Some(&Expr::Stride(_, by)) => {
@@ -205,7 +212,7 @@ impl Generator<'_> {
             _ => None,
         };
         let i = match further {
-            Some(further) if edge.memory.0 == 0 => further,
+            Some(further) if memory == 0 => further,
             Some(further) => quote!(#first + #further),
             None => quote!(#first),
         };

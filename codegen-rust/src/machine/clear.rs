@@ -89,10 +89,17 @@ impl Generator<'_> {
     /// Forgets edges and coils, before the first scan in RUN.
     pub(super) fn forget(&mut self) -> TokenStream {
         let mut out = TokenStream::new();
-        if self.module.edges > 0 {
-            let edge = self.rt("Edge");
-            let count = Literal::u32_unsuffixed(self.module.edges);
+        let (edges, ladders) = (
+            self.plan.ladders.edges(self.module),
+            self.plan.ladders.count(),
+        );
+        if edges > 0 {
+            let (edge, count) = (self.rt("Edge"), Literal::u32_unsuffixed(edges));
             out.extend(quote!(self.edges = [#edge(false); #count];));
+        }
+        if ladders > 0 {
+            let (steps, count) = (self.rt("Steps"), Literal::u32_unsuffixed(ladders));
+            out.extend(quote!(self.steps = [#steps::new(); #count];));
         }
         out.extend(self.forget_flags());
         if self.module.run_states > 0 {

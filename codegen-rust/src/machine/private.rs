@@ -59,18 +59,19 @@ impl Generator<'_> {
                 let (ty, off) = (quote!([#edge; #count]), quote!([#edge(false); #count]));
                 (format_ident!("edges"), ty, off, meaning)
             }
+            Private::Steps(count) => {
+                let (ty, new) = self.array("Steps", count);
+                let meaning = "Which blocks of step ladders run.";
+                (format_ident!("steps"), ty, new, meaning)
+            }
             Private::Flag { flag, .. } => {
                 (flag_field(flag), quote!(bool), quote!(false), flag.meaning)
             }
             Private::PeriodStart(flag) => {
                 let watch = self.rt("Milliseconds");
+                let (ty, new) = (quote!(#watch), quote!(#watch::at(0)));
                 let meaning = "Time since this period began.";
-                (
-                    since_field(flag),
-                    quote!(#watch),
-                    quote!(#watch::at(0)),
-                    meaning,
-                )
+                (since_field(flag), ty, new, meaning)
             }
             Private::Cell(cell) => {
                 let name = format_ident!("{}", cell.name);
@@ -113,14 +114,18 @@ impl Generator<'_> {
             }
             Private::States(count) => {
                 // Slot 0 stands for instructions without memory.
-                let count = Literal::u32_unsuffixed(u32::from(count) + 1);
-                let state = self.rt("State");
-                let (ty, new) = (quote!([#state; #count]), quote!([#state::new(); #count]));
+                let (ty, new) = self.array("State", u32::from(count) + 1);
                 let meaning = "Private memories of instructions.";
                 (format_ident!("states"), ty, new, meaning)
             }
         };
         vec![one]
+    }
+
+    /// The type of an array of things of the runtime, and its first value.
+    fn array(&mut self, of: &'static str, count: u32) -> (TokenStream, TokenStream) {
+        let (of, count) = (self.rt(of), Literal::u32_unsuffixed(count));
+        (quote!([#of; #count]), quote!([#of::new(); #count]))
     }
 
     /// The type of a serial port that may speak these protocols, and its first value.

@@ -150,6 +150,11 @@ impl Writer {
                 self.contact();
                 self.line("OUT C0 K5");
             }
+            7 if self.rng.percent(20) => {
+                let state = self.state();
+                self.contact();
+                self.line(format!("RST S{state}"));
+            }
             _ => {}
         }
         // A jump keeps a block from being left out.

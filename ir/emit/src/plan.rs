@@ -1,6 +1,7 @@
 //! The functions of the emitted program: a module divided into functions of bounded size.
 
 use crate::measure::Sizes;
+use crate::steps::{self, Ladders};
 use crate::temps::{self, Temp};
 use rungc_ir::Module;
 use rungc_ir::node::{Body, Branch, ExprId, LabelId, Part, Steps, Stmt, TempId};
@@ -191,6 +192,18 @@ impl Leaves {
     }
 }
 
+/// Calls `visit` with blocks of step ladders and their bodies.
+fn steps_of<'n, 'm>(nodes: &'n [Node<'m>], visit: &mut dyn FnMut(&'m Steps, &'n [Node<'m>])) {
+    for node in nodes {
+        if let Node::Steps { of, body } = node {
+            visit(of, body);
+        }
+        for body in node.bodies() {
+            steps_of(body, visit);
+        }
+    }
+}
+
 /// A node with what is known of it.
 struct Item<'m> {
     node: Node<'m>,
@@ -229,6 +242,8 @@ pub struct Plan<'m> {
     pub temps: TiVec<TempId, Temp>,
     /// Sizes of expressions.
     pub sizes: Sizes,
+    /// Blocks of step ladders that are cases.
+    pub ladders: Ladders,
     /// States of labelled parts: (root, label) to state.
     states: HashMap<(usize, LabelId), u32>,
     /// Names of states by root: the suffix of each, from state 1 on.
@@ -240,6 +255,14 @@ pub struct Plan<'m> {
 impl<'m> Plan<'m> {
     /// Makes it.
     pub fn new(module: &'m Module) -> Self {
+        let mut plan = Plan::without_ladders(module);
+        plan.ladders = Ladders::of(module, &plan);
+        plan.name_ladders(module);
+        plan
+    }
+
+    /// Makes one in which no blocks of step ladders are cases.
+    pub fn without_ladders(module: &'m Module) -> Self {
         let mut builder = Builder {
             module,
             functions: Vec::new(),
@@ -266,9 +289,27 @@ impl<'m> Plan<'m> {
             temps: temps::temps(module, &functions, &builder.sizes),
             functions,
             sizes: builder.sizes,
+            ladders: Ladders::default(),
             states: builder.states,
             state_names: builder.state_names,
             whole,
+        }
+    }
+
+    /// Names the temporaries of whether a state is on alike in all blocks of ladders.
+    fn name_ladders(&mut self, module: &Module) {
+        let mut named = Vec::new();
+        for function in &self.functions {
+            steps_of(&function.body, &mut |of, body| {
+                let cases = match self.ladders.find(of) {
+                    Some(_) => steps::cases(module, self, of, body),
+                    None => None,
+                };
+                named.extend(cases.into_iter().flatten().filter_map(|case| case.on));
+            });
+        }
+        for temp in named {
+            self.temps[temp].name_on();
         }
     }
 

@@ -14,6 +14,8 @@ pub enum Private<'m> {
     Sys,
     /// The memories of edges: this many, at least 1.
     Edges(u32),
+    /// The bits of ladders, [`crate::steps::Ladders`]: this many, at least 1.
+    Steps(u32),
     /// A flag.
     Flag {
         /// The flag.
@@ -45,7 +47,10 @@ impl Private<'_> {
     /// Returns true if RUN resets it to its power-on value, so that it is cleared when RUN begins.
     pub fn begins_with_run(self) -> bool {
         match self {
-            Private::Edges(_) | Private::Flag { .. } | Private::PeriodStart(_) => true,
+            Private::Edges(_)
+            | Private::Steps(_)
+            | Private::Flag { .. }
+            | Private::PeriodStart(_) => true,
             Private::Sys
             | Private::Cell(_)
             | Private::Table(_)
@@ -63,7 +68,10 @@ impl Private<'_> {
 pub fn fields<'m>(module: &'m Module, plan: &Plan) -> Vec<Private<'m>> {
     let outside = set_between_scans(module);
     let mut fields = vec![Private::Sys];
-    fields.extend((module.edges > 0).then_some(Private::Edges(module.edges)));
+    let edges = plan.ladders.edges(module);
+    fields.extend((edges > 0).then_some(Private::Edges(edges)));
+    let ladders = plan.ladders.count();
+    fields.extend((ladders > 0).then_some(Private::Steps(ladders)));
     let flags = module.flags.iter().enumerate();
     fields.extend(flags.map(|(i, flag)| Private::Flag {
         flag,

@@ -43,6 +43,11 @@ impl Temp {
         self.home
     }
 
+    /// Names it `on`: whether the state of the block of a ladder is on.
+    pub(crate) fn name_on(&mut self) {
+        (self.prefix, self.step, self.ordinal) = (ON, None, 0);
+    }
+
     /// It is given its value in several blocks of this function, or used outside the one where it is.
     fn leave_block(&mut self, function: usize) {
         if self.home == Home::Constant {
@@ -51,13 +56,17 @@ impl Temp {
     }
 }
 
-/// Its name: `step12`, `step12_2`.
+/// Name of whether the state of a block is on, where blocks are the cases of a choice.
+pub const ON: &str = "on";
+
+/// Its name: `step12`, `step12_2`, `on`.
 impl Display for Temp {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str(self.prefix)?;
         match (self.step, self.ordinal) {
             (Some(step), 0) => write!(f, "{step}"),
             (Some(step), n) => write!(f, "{step}_{}", n + 1),
+            (None, _) if self.prefix == ON => Ok(()),
             (None, n) => write!(f, "_{}", n + 1),
         }
     }

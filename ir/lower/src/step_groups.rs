@@ -1,9 +1,10 @@
 //! Blocks of the step ladder that a scan leaves out while their states are off: each by itself, and neighbours as one.
 //!
 //! A block whose state is off, is not being left, and was off before has no effect. Most blocks of a sequence are so. A
-//! test of a block replaces what it does ([`Steps`]), and a test of up to [`LARGEST`] neighbours replaces theirs. The
-//! tests read the states themselves, since MOV, ZRST, an index, a host or a server may write any of them; and each is
-//! made where its blocks begin, so that a state that is set further up begins in the same scan.
+//! test of a block replaces what it does ([`Steps`]), and a test of up to [`LARGEST`] neighbours replaces theirs. Up to
+//! [`WORD`] neighbours with rising states have one more, since backends have a bit for each. The tests read the states
+//! themselves, since MOV, ZRST, an index, a host or a server may write any of them; and each is made where its blocks
+//! begin, so that a state that is set further up begins in the same scan.
 
 use super::flow::Open;
 use super::{Lowerer, basic_of};
@@ -17,8 +18,12 @@ use std::ops::Range;
 /// Minimum and maximum number of blocks that are left out together.
 const SMALLEST: usize = 4;
 const LARGEST: usize = 8;
-/// Maximum number of states that a test reads: two words of a 64-bit machine.
+/// Maximum number of states that a test of these reads: two words of a 64-bit machine.
 const WIDEST: u32 = 16;
+/// Maximum number of states of blocks that are together once more.
+const WORD: u32 = 32;
+/// Maximum number of their instructions: those of a function.
+const LONGEST: usize = 256;
 
 /// A block of one state, from STL to the next one or RET, which control enters and leaves nowhere else.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -123,26 +128,62 @@ fn is_plain(resolved: &Resolved, i: usize) -> bool {
     !changes && resolved.instrs[i].label.is_none()
 }
 
-/// The groups of these blocks: neighbours whose states lie close together, of about the same size.
+/// The groups of these blocks, a ladder after those in it.
 fn groups(blocks: &[Block]) -> Vec<Range<usize>> {
     let mut groups = Vec::new();
+    let mut neighbours = |range: Range<usize>| {
+        let parts = divided(&blocks[range.clone()], LARGEST, are_close).into_iter();
+        let parts = parts.filter(|part| part.len() >= SMALLEST);
+        groups.extend(parts.map(|part| range.start + part.start..range.start + part.end));
+    };
+    let mut ladders = divided(blocks, WORD as usize, are_ladder);
+    ladders.retain(|ladder| ladder.len() > LARGEST);
+    let mut from = 0;
+    for ladder in &ladders {
+        neighbours(from..ladder.start);
+        neighbours(ladder.clone());
+        from = ladder.end;
+    }
+    neighbours(from..blocks.len());
+    groups.extend(ladders);
+    groups
+}
+
+/// Divides blocks into neighbours of about the same number, not more than this one, that are as `alike` says.
+fn divided(
+    blocks: &[Block],
+    largest: usize,
+    alike: impl Fn(&[Block]) -> bool,
+) -> Vec<Range<usize>> {
+    let mut parts = Vec::new();
     let mut from = 0;
     while from < blocks.len() {
         let follows = |i: &usize| *i == from || blocks[i - 1].end == blocks[*i].at;
         let run = (from..blocks.len()).take_while(follows).count();
-        let size = run.div_ceil(run.div_ceil(LARGEST));
-        let (mut low, mut high) = (u32::MAX, 0);
-        let close = |block: &&Block| {
-            (low, high) = (low.min(block.state), high.max(block.state));
-            high - low < WIDEST
-        };
-        let size = blocks[from..from + size].iter().take_while(close).count();
-        if size >= SMALLEST {
-            groups.push(from..from + size);
-        }
-        from += size;
+        let size = run.div_ceil(run.div_ceil(largest));
+        let ends = (from + 2..=from + size).take_while(|&end| alike(&blocks[from..end]));
+        let end = ends.last().unwrap_or(from + 1);
+        parts.push(from..end);
+        from = end;
     }
-    groups
+    parts
+}
+
+/// Returns true if the states of some blocks lie close together.
+fn are_close(blocks: &[Block]) -> bool {
+    let states = || blocks.iter().map(|block| block.state);
+    let spread = states().max().zip(states().min());
+    spread.is_none_or(|(high, low)| high - low < WIDEST)
+}
+
+/// Returns true if the states of some blocks rise, so that a word has a bit for each.
+fn are_ladder(blocks: &[Block]) -> bool {
+    let (Some(first), Some(last)) = (blocks.first(), blocks.last()) else {
+        return false;
+    };
+    blocks.is_sorted_by_key(|block| block.state)
+        && last.state - first.state < WORD
+        && last.end - first.at <= LONGEST
 }
 
 impl Lowerer<'_> {

@@ -54,6 +54,7 @@ pub mod retain;
 mod runs;
 pub mod special;
 mod specials;
+mod steps;
 mod stopwatch;
 mod timing;
 mod virtual_hal;
@@ -69,7 +70,7 @@ pub use axis::{
 pub use comm::{Port, Ports, advance as advance_ports, advance_slave};
 pub use compare::CmpOp;
 pub use cx::{Cx, call, conclude, fetch, send};
-pub use edge::{Edge, EdgeKind, any_active, next_step};
+pub use edge::{Edge, EdgeKind, any_active};
 pub use fault::{
     Done, ErrorRules, Fault, LastError, Stop, log_error, relay_in_bcd, report, trip_watchdog,
 };
@@ -83,6 +84,7 @@ pub use registry::{Needs, RtFn};
 pub use runs::{FIRST_COUNTER32, FIRST_SPECIAL, Runs};
 pub use special::{Register, Relay};
 pub use specials::Specials;
+pub use steps::Steps;
 pub use stopwatch::{Divider, Microseconds, Milliseconds, Stopwatch};
 pub use timing::{Counter16, Counter32, Timer, TimerKind};
 pub use virtual_hal::VirtualHal;

@@ -7,8 +7,12 @@ use rungc_ir::Module;
 use rungc_ir::node::{Steps, Stmt};
 use rungc_ir::walk::statements;
 use rungc_models::ModelId;
+use rungc_models::runs::rt_class;
 use rungc_rt::{Class, NoHal, Plc, Program};
+use rungc_sim::engines::{Engine, EngineKind, build};
+use rungc_sim::protocol::{Answer, Request};
 use std::fmt::Write;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -103,6 +107,79 @@ fn random_events(rng: &mut Rng) -> Vec<(Class, u32, bool)> {
     events
 }
 
+/// Digests of all devices of a random program after each scan of a random run on an engine.
+fn digests(engine: &mut dyn Engine, number: usize, module: &Module) -> Vec<Answer> {
+    let areas = || {
+        let areas = module.layout.areas.iter();
+        areas.filter_map(|area| Some((rt_class(area.class)?, area.first, area.count)))
+    };
+    let stores = |class, number| {
+        areas().any(|(of, first, count)| of == class && (first..first + count).contains(&number))
+    };
+    let requested: Vec<Request> = areas()
+        .map(|(class, first, count)| Request::Digest(class, first, count))
+        .collect();
+    let mut rng = Rng::new(number as u64);
+    let mut execute = |requests: &[Request]| {
+        let answers = engine.execute_all(requests);
+        answers.unwrap_or_else(|error| panic!("{error}"))
+    };
+    execute(&[Request::Case(number)]);
+    let mut found = Vec::new();
+    for scan in 0..200 {
+        let mut requests = Vec::new();
+        let mut events = random_events(&mut rng);
+        events.retain(|&(class, number, _)| stores(class, number));
+        for (class, number, on) in events {
+            requests.push(Request::SetBit(class, number, on));
+            if module.takes_events() {
+                requests.extend([Request::Edge(number % 8, on), Request::Interrupts]);
+            }
+        }
+        requests.extend(match scan {
+            70 => Some(Request::Run(false)),
+            73 => Some(Request::Run(true)),
+            _ => None,
+        });
+        requests.push(Request::Scan {
+            now_ms: 40 * scan,
+            scan_us: 10_000,
+        });
+        execute(&requests);
+        found.extend(execute(&requested));
+    }
+    found
+}
+
+#[test]
+fn emitted_ladders_do_what_the_interpreter_does() {
+    let modules: Vec<Module> = (0..16)
+        .map(|seed| module(&sequences::program(seed), ModelId::Fx3u))
+        .collect();
+    let ladders = modules.iter().map(|module| {
+        let c = rungc_codegen_c::emit(module, &rungc_codegen_c::Options::default());
+        let c = c.iter().filter(|file| file.path.ends_with(".c"));
+        c.map(|file| file.contents.matches("plc_begin_steps(").count())
+            .sum::<usize>()
+    });
+    let ladders: usize = ladders.sum();
+    assert!(ladders > 10, "{ladders} ladders");
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("step_ladders");
+    let [mut interpreter, mut c, mut rust] = EngineKind::ALL.map(|kind| {
+        let engine = build(kind, &modules, &target);
+        engine.unwrap_or_else(|error| panic!("{error}"))
+    });
+    for (number, module) in modules.iter().enumerate() {
+        let expected = digests(&mut *interpreter, number, module);
+        for engine in [&mut c, &mut rust] {
+            let found = digests(&mut **engine, number, module);
+            let differs = expected.iter().zip(&found).position(|(a, b)| a != b);
+            let text = sequences::program(number as u64);
+            assert_eq!(differs, None, "{}, digest:\n{text}", engine.name());
+        }
+    }
+}
+
 /// Sequences of eleven states, which hand on by inputs.
 fn sequences_of_eleven(count: u32) -> String {
     let mut text = String::from("LD M8002\n");
@@ -150,8 +227,9 @@ fn neighbours_make_groups_of_about_the_same_size() {
         found.retain(|&states| states > 1);
         found
     };
-    assert_eq!(of(1), [6, 5]);
-    assert_eq!(of(2), [8, 7, 7]);
+    assert_eq!(of(1), [11, 6, 5]);
+    assert_eq!(of(2), [22, 8, 7, 7]);
+    assert_eq!(of(3), [17, 6, 6, 5, 16, 8, 8]);
 }
 
 /// The lines of an emitted file from the first of its networks on.
@@ -191,4 +269,36 @@ fn blocks_of_states_in_a_row_are_cases() {
     // A state that nothing leaves is like the others, a gap between the states is not.
     assert_eq!(of(&text.replace("SET S20\nRET", "SET M0\nRET")), (11, 0));
     assert_eq!(of(&text.replace("S23", "S33")), (5, 1));
+    // Where the states rise, a gap is a bit without a case.
+    assert_eq!(of(&text.replace("S30", "S40")), (11, 0));
+    assert_eq!(of(&sequences_of_eleven(3)), (33, 0));
+}
+
+/// Blocks that change later states in other ways than by a transition are tested, since their bits would be wrong.
+#[test]
+fn blocks_that_reset_later_states_are_tested() {
+    let cases = |action: &str| {
+        let text = sequences_of_eleven(1);
+        let text = text.replace("OUT M1022\n", &format!("OUT M1022\n{action}\n"));
+        let module = module(&text, ModelId::Fx3u);
+        let c = rungc_codegen_c::emit(&module, &rungc_codegen_c::Options::default());
+        let c: String = c.into_iter().map(|file| file.contents).collect();
+        let count = |text| c.matches(text).count();
+        (count("\n        case "), count("plc_begin_steps(&plc"))
+    };
+    for action in [
+        "RST S22",
+        "RST S20",
+        "SET S27",
+        "LD S27\nOUT M0",
+        "PLS M0",
+        "OUT S40",
+    ] {
+        assert_eq!(cases(action), (11, 1), "{action}");
+    }
+    for action in ["RST S23", "ZRST S20 S30", "MOV D1 Z0\nMOV D0 K1S0Z0"] {
+        assert_eq!(cases(action), (5, 1), "{action}");
+    }
+    // The states are read again where the next group begins.
+    assert_eq!(cases("MOV D0 K1S28"), (11, 2));
 }
