@@ -220,7 +220,7 @@ impl Question for OfProperty<'_> {
     fn steered<'q>(&'q self, limit: &Limit) -> Option<Steered<Plant<'q>>> {
         let plant = Plant::new(self.module, self.property, &self.options.assumed, limit);
         let Surroundings { outside, watched } = self.surroundings.clone();
-        Some(Steered::new(plant, outside, watched, SEED))
+        Some(Steered::new(plant, outside, watched, (SEED, LONGEST)))
     }
 }
 
@@ -271,6 +271,9 @@ const ROUND: (u64, u64) = (250, 4);
 
 /// Number of the sequence of runs by chance on the interpreter.
 const SEED: u64 = 1;
+
+/// The most scans of a stretch of one.
+const LONGEST: u64 = 4096;
 
 /// Rounds of runs on the interpreter where logic shows none that happens.
 const STEERED: u32 = 1;

@@ -18,6 +18,7 @@ use crate::search::Trace;
 use product::Product;
 use rungc_ir::Module;
 use rungc_rt::Program;
+use rungc_sim::property::Monitor;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -157,16 +158,22 @@ impl Question for Differs<'_> {
 
     fn happens(&self, trace: &Trace) -> Option<usize> {
         let mut runs = self.modules.map(|module| Run::new(module, trace));
+        let mut kept = runs.each_ref().map(|_| Monitor::new(&self.options.assumed));
         for (n, scan) in trace.scans.iter().enumerate() {
             if runs.iter().any(|run| run.is_early(scan)) {
                 return None;
             }
+            if scan.restart {
+                kept.fill(Monitor::new(&self.options.assumed));
+            }
             let [old, new] = &mut runs;
-            if old.scan(scan).is_some() != new.scan(scan).is_some() {
+            let elapsed = [old.scan(scan), new.scan(scan)];
+            if elapsed[0].is_some() != elapsed[1].is_some() {
                 return Some(n + 1);
             }
-            let kept = |run: &Run| self.options.assumed.iter().all(|a| a.holds(&run.machine));
-            if !kept(old) || !kept(new) {
+            let mut both = [&*old, &*new].into_iter().zip(&mut kept);
+            // Of programs that both stop, nothing follows.
+            if !both.all(|(run, kept)| kept.all_hold(&run.machine, elapsed[0].unwrap_or(0))) {
                 return None;
             }
             let output = |run: &Run| run.machine.output(self.number);

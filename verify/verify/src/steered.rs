@@ -197,6 +197,8 @@ pub struct Steered<S: Subject> {
     /// Weight of each of the watched devices.
     weights: Vec<f64>,
     random: Random,
+    /// The most scans of a stretch.
+    longest: u64,
     stretches: Vec<Stretch>,
     places: Vec<Place<S::Moment>>,
     features: BTreeMap<(usize, i64), Feature>,
@@ -224,12 +226,15 @@ const HABITS: [u32; 6] = [0, 1, 2, 3, 6, STAYS];
 /// Habit of what does not change.
 const STAYS: u32 = 20;
 
-/// The most scans of a stretch.
-const LONGEST: u64 = 4096;
-
 impl<S: Subject> Steered<S> {
-    /// Before the first run. `watched` is the memory whose values say how far a run has come.
-    pub fn new(subject: S, outside: Outside, watched: Vec<Key>, seed: u64) -> Self {
+    /// Before the first run. `watched` is the memory whose values say how far a run has come; a stretch has at most
+    /// `longest` scans, a small part of those that the search is given.
+    pub fn new(
+        subject: S,
+        outside: Outside,
+        watched: Vec<Key>,
+        (seed, longest): (u64, u64),
+    ) -> Self {
         let count = watched.len() * subject.programs();
         Steered {
             weights: watched.iter().map(|key| outside.weight(*key)).collect(),
@@ -237,6 +242,7 @@ impl<S: Subject> Steered<S> {
             outside,
             watched,
             random: Random::seeded(seed),
+            longest,
             stretches: Vec::new(),
             places: Vec::new(),
             features: BTreeMap::new(),
@@ -283,7 +289,9 @@ impl<S: Subject> Steered<S> {
             match state {
                 State::Happened => return Some(self.run(this)),
                 State::Over => return None,
-                State::Lives if self.note(this, &levels) => end = end.max(LONGEST.min(2 * n)),
+                State::Lives if self.note(this, &levels) => {
+                    end = end.max(self.longest.min(2 * n));
+                }
                 State::Lives => {}
             }
         }

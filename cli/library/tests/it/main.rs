@@ -2,6 +2,7 @@
 
 use rungc::{Error, Options, Project, Value};
 use std::fs;
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// Y000 follows X000 after 3 s.
@@ -214,7 +215,33 @@ fn operation_errors_are_reported() {
     assert_eq!(errors.len(), 1, "{errors:?}");
 }
 
-/// The example of the book is that of the crate's documentation, which is executed.
+/// The example of the front page, line by line.
+fn front_page(file: PathBuf) -> Result<(), Error> {
+    let project = Project::open(&file)?; // a list, an export, a GX Works2 project, a folder with rungc.toml
+    let checked = project.check();
+    for diagnostic in &checked.diagnostics {
+        eprintln!("{diagnostic}");
+    }
+    let program = checked.compile()?;
+    for file in program.emit_c() {
+        println!("{}: {} bytes", file.path, file.contents.len());
+    }
+    let mut plc = program.start();
+    plc.set("Start", true)?; // a comment of the program, or X000
+    plc.run_for(Duration::from_secs(2));
+    assert!(!plc.bit("Y000")?);
+    plc.run_for(Duration::from_secs(2));
+    assert!(plc.bit("Y000")?);
+    Ok(())
+}
+
+#[test]
+fn the_example_of_the_front_page_runs() {
+    let folder = folder(&[("motor.il", DELAY)]);
+    front_page(folder.path().join("motor.il")).unwrap();
+}
+
+/// The example of the book is that of the crate's documentation, and the one above.
 #[test]
 fn the_book_shows_the_example_that_is_tested() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -236,4 +263,12 @@ fn the_book_shows_the_example_that_is_tested() {
     let shown = block(&page, "```rust");
     assert_eq!(shown, block(&docs, "```"));
     assert!(shown.lines().count() > 10);
+    let executed = block(
+        include_str!("main.rs"),
+        "fn front_page(file: PathBuf) -> Result<(), Error> {",
+    );
+    let executed = executed.split("    Ok(())").next().unwrap();
+    for line in shown.lines().filter(|line| !line.starts_with("use ")) {
+        assert!(executed.contains(&format!("    {line}\n")), "{line}");
+    }
 }

@@ -32,7 +32,9 @@ pub fn search(
     (seed, scans): (u64, u64),
 ) -> Found {
     let rig = Rig::new(modules, goal, assumed);
-    let mut steered = Steered::new(rig, outside.clone(), watched(modules), seed);
+    // Stretches are short beside the few scans of a search.
+    let chosen = (seed, (scans / 16).max(1));
+    let mut steered = Steered::new(rig, outside.clone(), watched(modules), chosen);
     let end = Instant::now() + LIMIT;
     let run = steered.search(&|done| done >= scans || Instant::now() >= end);
     Found {

@@ -3,7 +3,7 @@
 use rungc_interp::{Machine, Saved, rt_class};
 use rungc_ir::Module;
 use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
-use rungc_sim::property::{Condition, Property, Watcher};
+use rungc_sim::property::{Condition, Monitor, Property, Watcher};
 use rungc_verify::model::{CounterPart, Key, TimerPart};
 use rungc_verify::replay::has_hardware;
 use rungc_verify::steered::{Between, Run, State, Step, Subject, distance, value_of};
@@ -125,6 +125,8 @@ pub struct Rig<'m, 'c> {
     pub plants: Vec<Plant<'m>>,
     goal: Goal<'c>,
     assumed: &'c [Condition],
+    /// The assumptions, as each program has kept them.
+    monitors: Vec<Monitor<'c>>,
     watcher: Option<Watcher<'c>>,
     scans: usize,
 }
@@ -133,6 +135,7 @@ pub struct Rig<'m, 'c> {
 #[derive(Clone)]
 pub struct Moment<'c> {
     plants: Vec<(Saved, Option<Box<VirtualHal>>, u32, bool)>,
+    monitors: Vec<Monitor<'c>>,
     watcher: Option<Watcher<'c>>,
     scans: usize,
 }
@@ -144,9 +147,17 @@ impl<'m, 'c> Rig<'m, 'c> {
             plants: modules.iter().map(|module| Plant::new(module)).collect(),
             goal,
             assumed,
+            monitors: vec![Monitor::new(assumed); modules.len()],
             watcher: watcher(goal),
             scans: 0,
         }
+    }
+
+    /// Nothing has been seen since power-on, or since RUN.
+    fn forget(&mut self) {
+        self.monitors.fill(Monitor::new(self.assumed));
+        self.watcher = watcher(self.goal);
+        self.scans = 0;
     }
 }
 
@@ -155,8 +166,7 @@ impl<'c> Subject for Rig<'_, 'c> {
 
     fn begin(&mut self, start: &[(Key, i64)]) {
         self.plants.iter_mut().for_each(|plant| plant.begin(start));
-        self.watcher = watcher(self.goal);
-        self.scans = 0;
+        self.forget();
     }
 
     fn constant_scan_ms(&self) -> u32 {
@@ -169,8 +179,7 @@ impl<'c> Subject for Rig<'_, 'c> {
 
     fn step(&mut self, step: &Step) -> State {
         if step.power || step.stop {
-            self.watcher = watcher(self.goal);
-            self.scans = 0;
+            self.forget();
         }
         self.scans += 1;
         let mut plants = self.plants.iter_mut();
@@ -183,8 +192,11 @@ impl<'c> Subject for Rig<'_, 'c> {
         let Some(&Some(elapsed)) = elapsed.first() else {
             return State::Over;
         };
-        let kept = |plant: &Plant| self.assumed.iter().all(|a| a.holds(&plant.machine));
-        if !self.plants.iter().all(kept) {
+        let mut kept = true;
+        for (plant, monitor) in self.plants.iter().zip(&mut self.monitors) {
+            kept &= monitor.all_hold(&plant.machine, elapsed);
+        }
+        if !kept {
             return State::Over;
         }
         let happened = match (self.goal, &mut self.watcher) {
@@ -215,6 +227,7 @@ impl<'c> Subject for Rig<'_, 'c> {
                     (p.machine.save(), hal, p.now_ms, p.first)
                 })
                 .collect(),
+            monitors: self.monitors.clone(),
             watcher: self.watcher.clone(),
             scans: self.scans,
         }
@@ -228,6 +241,7 @@ impl<'c> Subject for Rig<'_, 'c> {
             }
             (plant.now_ms, plant.first) = (*now_ms, *first);
         }
+        self.monitors.clone_from(&moment.monitors);
         self.watcher = moment.watcher.clone();
         self.scans = moment.scans;
     }
