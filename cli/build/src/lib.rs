@@ -15,8 +15,8 @@
 //! ```
 //!
 //! The crate depends on `rungc-rt`, the runtime, and the module is what `rungc build --emit rust` writes as a crate.
-//! Cargo shows errors and warnings of the program with their places, and compiles it again when its file or its settings
-//! change. Start reading at [`compile`].
+//! Cargo shows errors and warnings of the program with their places, and compiles it again when its file or its
+//! settings change. Start reading at [`compile`].
 #![deny(missing_docs)]
 
 mod module;

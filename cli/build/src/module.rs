@@ -22,7 +22,7 @@ pub fn code(program: &Program) -> String {
     let mut root = parsed(modules["lib"], 0);
     // What is said of the crate does not hold for a module of another one.
     root.attrs.clear();
-    // Nobody uses all of it.
+    // No one uses all of it.
     root.items
         .iter_mut()
         .filter_map(attributes)
@@ -39,7 +39,7 @@ fn parsed(file: &OutFile, depth: usize) -> File {
     syn::parse2(within(tokens, depth)).expect("emitted code is Rust")
 }
 
-/// Puts modules in files of their own into the module at this path; theirs are at this depth.
+/// Puts modules in separate files into the module at this path; theirs are at this depth.
 fn fill(items: &mut [Item], path: &str, depth: usize, modules: &Modules) {
     for item in items {
         if let Item::Mod(module) = item {

@@ -6,8 +6,8 @@ use rungc_models::{Model, ModelId};
 use rungc_syntax::diag::counted;
 use rungc_syntax::{Diagnostic, Diagnostics, Severity, codes};
 
-/// Diagnostics of a program that was compiled with these options. If nothing says which model it is for, and its instructions are those of another
-/// one, one error says so, instead of one for each instruction.
+/// Diagnostics of a program that was compiled with these options. If nothing says which model it is for, and its
+/// instructions are those of another one, one error says so, instead of one for each instruction.
 pub fn joined(options: &CompileOptions, read: &Read, compiled: &Compiled) -> Diagnostics {
     let mut missing = compiled.diagnostics.iter().filter(|d| is_missing(d));
     let is_chosen = options.model.is_some() || read.program.cpu.is_some();

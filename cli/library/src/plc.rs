@@ -70,8 +70,8 @@ pub struct Snapshot {
 
 /// A PLC that runs in virtual time, on the reference interpreter.
 ///
-/// Devices are named as in test files and on the command line: `X000`, `D0`, `D0.i32`, `D0.f32`, `K4M0`, or by a comment
-/// of the program. Inputs keep the state that they are set to.
+/// Devices are named as in test files and on the command line: `X000`, `D0`, `D0.i32`, `D0.f32`, `K4M0`, or by a
+/// comment of the program. Inputs keep the state that they are set to.
 pub struct Plc<'p> {
     session: Session<'p>,
     names: &'p Names,
@@ -101,8 +101,8 @@ impl<'p> Plc<'p> {
         Duration::from_millis(self.session.now_ms())
     }
 
-    /// Lets time pass, with the scans that begin in it: one every 10 ms, or with the constant scan time that the program
-    /// asks for. The last one ends before it returns.
+    /// Lets time pass, with the scans that begin in it: one every 10 ms, or with the constant scan time that the
+    /// program asks for. The last one ends before it returns.
     pub fn run_for(&mut self, time: Duration) {
         let end_ms = self.session.now_ms() + time.as_millis() as u64;
         while self.session.now_ms() < end_ms {
@@ -257,7 +257,7 @@ impl<'p> Plc<'p> {
         Ok(())
     }
 
-    /// The session behind it, for the crates below this one.
+    /// Its session, for the crates below this one.
     pub fn session(&mut self) -> &mut Session<'p> {
         &mut self.session
     }

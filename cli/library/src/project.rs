@@ -52,7 +52,7 @@ pub struct Checked {
 }
 
 impl Project {
-    /// Opens a program of any format that `rungc` reads (`docs/src/formats.md`), or the program of a folder.
+    /// Opens a program of any format that `rungc` reads (`docs/src/inputs.md`), or the program of a folder.
     ///
     /// # Errors
     /// What cannot be read, settings with mistakes, a folder with several programs.

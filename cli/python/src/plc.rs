@@ -176,7 +176,7 @@ impl Plc {
     }
 }
 
-/// Runs, and records values at each scan, or every so many milliseconds.
+/// Runs, and records values at each scan, or at this interval in milliseconds.
 fn traced(
     plc: &mut Borrowed<'_>,
     names: &[String],

@@ -32,7 +32,6 @@ pub use verify::VerifyArgs;
 
 use crate::output::OutputPath;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use rungc::Levels;
 use rungc_firmware::target::Target;
 use rungc_frontend::{Encoding, ReadOptions};
 use rungc_models::{ModelId, Plc};
@@ -542,18 +541,6 @@ pub enum Format {
     Junit,
     /// Workflow commands of GitHub Actions, which mark findings at their lines.
     Github,
-}
-
-impl Reporting {
-    /// Which findings count, and how much.
-    pub fn levels(&self) -> Levels {
-        Levels {
-            allow: self.allow.clone(),
-            deny: self.deny.clone(),
-            deny_warnings: self.deny_warnings,
-            rules: self.rules.clone(),
-        }
-    }
 }
 
 impl Default for Reporting {

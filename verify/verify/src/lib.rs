@@ -27,7 +27,6 @@ pub mod replay;
 pub mod same;
 pub mod sat;
 pub mod search;
-pub mod steered;
 pub mod system;
 pub mod unroll;
 pub mod vacuous;

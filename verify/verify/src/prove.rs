@@ -1,7 +1,5 @@
 //! From a program and a property to a verdict.
 
-mod scans;
-
 use crate::effort::Limit;
 use crate::model::{AFTER_STOP, Encoder, Gap, Input, Key, World};
 use crate::pdr;
@@ -9,12 +7,10 @@ use crate::proof::{Method, Posed, Proof};
 use crate::property::{condition, event};
 use crate::random::LongRuns;
 use crate::replay;
-use crate::search::Trace;
-use crate::steered::{Plant, Steered, Surroundings};
+use crate::search::{Bounded, Induction, Step, Trace};
 use crate::system::System;
 use rungc_ir::Module;
 use rungc_sim::property::{Condition, Property};
-use scans::{Hunt, ScanByScan};
 use std::cell::LazyCell;
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -171,7 +167,7 @@ pub fn system<'m>(
 }
 
 /// A question about runs: whether one can do something.
-pub(crate) trait Question {
+pub trait Question {
     /// The question in this world.
     fn posed(&self, world: &World) -> Posed;
 
@@ -180,11 +176,6 @@ pub(crate) trait Question {
 
     /// Steps of a scan of such a run.
     fn scan_steps(&self) -> usize;
-
-    /// A search for a run on the interpreter, with these steps of its limit, if the question has one.
-    fn steered<'q>(&'q self, _limit: &Limit) -> Option<Steered<Plant<'q>>> {
-        None
-    }
 
     /// Returns true if the answer may abstract from the time at which timers expire.
     fn abstracts_timers(&self) -> bool {
@@ -197,7 +188,6 @@ struct OfProperty<'a> {
     module: &'a Module,
     property: &'a Property,
     options: &'a Options,
-    surroundings: Surroundings,
 }
 
 impl Question for OfProperty<'_> {
@@ -215,12 +205,6 @@ impl Question for OfProperty<'_> {
 
     fn scan_steps(&self) -> usize {
         self.module.exprs.len()
-    }
-
-    fn steered<'q>(&'q self, limit: &Limit) -> Option<Steered<Plant<'q>>> {
-        let plant = Plant::new(self.module, self.property, &self.options.assumed, limit);
-        let Surroundings { outside, watched } = self.surroundings.clone();
-        Some(Steered::new(plant, outside, watched, (SEED, LONGEST)))
     }
 }
 
@@ -244,7 +228,6 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
         module,
         property,
         options,
-        surroundings: Surroundings::new(&encoder, &system, options.world.scan_ms),
     };
     let mut gaps = BTreeSet::from_iter(gaps);
     let latches = system.latches.len();
@@ -267,16 +250,7 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
 pub const FOREVER_MS: u32 = 4_000_000;
 
 /// Initial effort for each way, and its factor in the next round.
-const ROUND: (u64, u64) = (250, 4);
-
-/// Number of the sequence of runs by chance on the interpreter.
-const SEED: u64 = 1;
-
-/// The most scans of a stretch of one.
-const LONGEST: u64 = 4096;
-
-/// Rounds of runs on the interpreter where logic shows none that happens.
-const STEERED: u32 = 1;
+const ROUND: (u64, u64) = (500, 4);
 
 /// Returns after how many scans of a trace what is searched for has happened, and counts its steps.
 fn shown(question: &dyn Question, limit: &Limit, trace: &Trace) -> Option<usize> {
@@ -285,52 +259,54 @@ fn shown(question: &dyn Question, limit: &Limit, trace: &Trace) -> Option<usize>
 }
 
 /// Number of scans after which an invariant is searched for the first time.
-const EARLY: usize = 2;
-
-/// Limit of the effort for leaving out of a run what does not matter.
-const PLAIN: u64 = 2000;
+const EARLY: usize = 3;
 
 /// Bounded search and induction side by side, and soon a first attempt at an invariant; then, in rounds that give each
-/// of them more effort, these and the ways of [`Ways`]; then bounded search alone. `posed` is the question in this
-/// world.
-pub(crate) fn search(
-    question: &dyn Question,
-    world: &World,
-    posed: &Posed,
-    limit: &Limit,
-) -> Answer {
-    let mut scans = ScanByScan::new(question, world, posed, limit);
+/// of them more effort, the ways of [`Ways`]; then bounded search alone. `posed` is the question in this world.
+pub fn search(question: &dyn Question, world: &World, posed: &Posed, limit: &Limit) -> Answer {
+    let mut hunt = Hunt::new(question, world, &posed.system, limit);
+    // A proof must hold for what a replay cannot show, too.
+    let mut complete = Bounded::new(&posed.system, false, limit);
+    let mut induction = Induction::new(&posed.system, limit);
     let mut as_it_is = Attempt::new(|| posed.clone().simplified(&limit.part(ROUND.0)));
-    if let Some(answer) = scans.search(EARLY, limit) {
-        return answer;
-    }
-    // Bits that are always equal make a proof short: where the clock of a duration equals a timer of the program, no
-    // search scan by scan comes to an end.
-    if !scans.ends
-        && let Some(proof) = as_it_is.invariant(ROUND.0 / 2, limit)
-    {
-        return proof.into();
-    }
-    if let Some(answer) = scans.search(INDUCTION, &limit.part(ROUND.0)) {
-        return answer;
+    for scans in 1..=INDUCTION {
+        // Bits that are always equal make a proof short: where the clock of a duration equals a timer of the program,
+        // no
+        // search scan by scan comes to an end.
+        if scans == EARLY
+            && let Some(proof) = as_it_is.invariant(ROUND.0 / 2, limit)
+        {
+            return proof.into();
+        }
+        if let Some(verdict) = hunt.step() {
+            return verdict.into();
+        }
+        match complete.step() {
+            Step::Holds if induction.step() => {
+                return posed.proof(Method::Induction(scans)).into();
+            }
+            Step::Holds => {}
+            Step::Impossible => {
+                let scans = complete.scans();
+                return Verdict::Undecided(Why::Contradiction { scans }).into();
+            }
+            Step::Violated(_) | Step::TimeUp => break,
+        }
     }
     let mut ways = Ways::new(question, world, (posed, as_it_is), limit);
     let (mut effort, factor) = ROUND;
-    while !limit.is_over() && !ways.are_exhausted(&scans.hunt) {
+    while !limit.is_over() && !ways.are_exhausted(&hunt) {
         if let Some(answer) = ways.round(effort) {
-            return answer;
-        }
-        if let Some(answer) = scans.search(INDUCTION, &limit.part(effort)) {
             return answer;
         }
         effort *= factor;
     }
-    while !limit.is_over() && scans.hunt.spurious.is_none() {
-        if let Some(verdict) = scans.hunt.step() {
+    while !limit.is_over() && hunt.spurious.is_none() {
+        if let Some(verdict) = hunt.step() {
             return verdict.into();
         }
     }
-    scans.hunt.undecided().into()
+    hunt.undecided().into()
 }
 
 /// A system in which an invariant is searched. It is made when it is first needed: most questions are answered before.
@@ -385,10 +361,6 @@ struct Ways<'a> {
     free_scan_times: Attempt<'a>,
     /// Runs that are longer than a search scan by scan can reach.
     long_runs: LongRuns<'a>,
-    /// Runs on the interpreter, where nothing is left open.
-    steered: Option<Steered<Plant<'a>>>,
-    /// Number of rounds so far.
-    rounds: u32,
     limit: &'a Limit,
 }
 
@@ -419,29 +391,21 @@ impl<'a> Ways<'a> {
             timers_abstracted: abstracts.then(|| Attempt::new(abstracted)),
             free_scan_times: Attempt::new(free_scan_times),
             long_runs: LongRuns::new(&posed.system, world.scan_ms),
-            steered: question.steered(limit),
-            rounds: 0,
             limit,
         }
     }
 
-    /// Returns true if no proof can be found any more, and hardly a run: logic shows none that the interpreter
-    /// confirms.
+    /// Returns true if no proof can be found any more, nor a run that the interpreter confirms.
     fn are_exhausted(&self, hunt: &Hunt) -> bool {
         let mut attempts = [&self.free_scan_times, &self.as_it_is]
             .into_iter()
             .chain(&self.timers_abstracted);
-        let runs_are_rare = self.steered.is_none() || self.rounds >= STEERED;
-        runs_are_rare && hunt.spurious.is_some() && attempts.all(|attempt| !attempt.may_hold)
+        hunt.spurious.is_some() && attempts.all(|attempt| !attempt.may_hold)
     }
 
     /// Tries each with this effort.
     fn round(&mut self, effort: u64) -> Option<Answer> {
         let limit = self.limit;
-        self.rounds += 1;
-        if let Some(found) = self.steered_runs(&limit.part(2 * effort)) {
-            return Some(found.into());
-        }
         let abstracted = self.timers_abstracted.as_mut();
         if let Some(proof) = abstracted.and_then(|attempt| attempt.invariant(effort, limit)) {
             return Some(proof.into());
@@ -464,27 +428,13 @@ impl<'a> Ways<'a> {
         let happens = |trace: &Trace| shown(self.question, self.limit, trace);
         let happened = &mut |trace: &Trace| happens(trace).is_some();
         let found = self.long_runs.search(part, happened)?;
-        Some(self.found(found))
-    }
-
-    /// Continues the search on the interpreter.
-    fn steered_runs(&mut self, part: &Limit) -> Option<Verdict> {
-        let run = self.steered.as_mut()?.search(&|_| part.is_over())?;
-        let trace = run.trace();
-        let happens = shown(self.question, self.limit, &trace).is_some();
-        happens.then(|| self.found(trace))
-    }
-
-    /// Verdict of a run, which is simplified first.
-    fn found(&self, found: Trace) -> Verdict {
-        let happens = |trace: &Trace| shown(self.question, self.limit, trace);
         let short = replay::shortened(&happens, found, &self.limit.share(4).part(PLAIN));
-        Verdict::Found(replay::plain(
+        Some(Verdict::Found(replay::plain(
             &happens,
             self.world.scan_ms,
             short,
             &self.limit.part(PLAIN),
-        ))
+        )))
     }
 
     /// Searches a run where a scan may come any time after the one before: it is replayed with scans in between.
@@ -504,11 +454,69 @@ impl<'a> Ways<'a> {
     }
 }
 
+/// Limit of the effort for leaving out of a run what does not matter.
+const PLAIN: u64 = 2000;
+
+/// A search for a run that the interpreter confirms.
+struct Hunt<'a> {
+    question: &'a dyn Question,
+    /// The most milliseconds from one scan of the program to the next.
+    scan_ms: u32,
+    limit: Limit,
+    bounded: Bounded<'a>,
+    /// Length of the first run that the interpreter did not confirm.
+    spurious: Option<usize>,
+}
+
+impl<'a> Hunt<'a> {
+    fn new(question: &'a dyn Question, world: &World, system: &'a System, limit: &Limit) -> Self {
+        Hunt {
+            limit: limit.clone(),
+            question,
+            scan_ms: world.scan_ms,
+            bounded: Bounded::new(system, true, limit),
+            spurious: None,
+        }
+    }
+
+    /// Searches one scan further, unless nothing can be confirmed any more.
+    fn step(&mut self) -> Option<Verdict> {
+        if self.spurious.is_some() {
+            return None;
+        }
+        let Step::Violated(trace) = self.bounded.step() else {
+            return None;
+        };
+        let happens = |trace: &Trace| shown(self.question, &self.limit, trace);
+        let stretched = replay::stretched(&trace, self.scan_ms);
+        let Some(trace) = stretched.filter(|trace| happens(trace).is_some()) else {
+            self.spurious = Some(self.bounded.scans());
+            return None;
+        };
+        let plain = replay::plain(&happens, self.scan_ms, trace, &self.limit.part(PLAIN));
+        Some(Verdict::Found(plain))
+    }
+
+    fn undecided(&self) -> Verdict {
+        Verdict::Undecided(match self.spurious {
+            Some(scans) => Why::Spurious { scans },
+            None => {
+                let scans = self.bounded.scans().saturating_sub(1);
+                match self.limit.is_late() {
+                    true => Why::Time { scans },
+                    false => Why::Effort {
+                        scans,
+                        effort: self.limit.effort(),
+                    },
+                }
+            }
+        })
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{
-        Attempt, OfProperty, Options, Question, Surroundings, Verdict, Ways, decide, system,
-    };
+    use super::{Attempt, OfProperty, Options, Question, Verdict, Ways, decide};
     use crate::certificate::formulas;
     use crate::model::World;
     use crate::proof::{Fact, Proof};
@@ -534,13 +542,10 @@ mod tests {
             effort: 60_000,
             time: None,
         };
-        let property = Property::Never(both);
-        let (encoder, system) = system(&module, &property, &options);
         let question = OfProperty {
             module: &module,
-            property: &property,
+            property: &Property::Never(both),
             options: &options,
-            surroundings: Surroundings::new(&encoder, &system, options.world.scan_ms),
         };
         let limit = options.limit();
         let posed = question.posed(&options.world);

@@ -12,6 +12,7 @@ pub use visible::{breaks_lines, to_json, visible, visible_line};
 
 use crate::args::{Format, Reporting};
 use crate::commands::{Context, Verbosity, counted, print_bytes};
+use rungc::Levels;
 use rungc::location::{Location, named};
 use rungc_analysis::check::ports::Setup;
 use rungc_evidence::Evidence;
@@ -57,6 +58,18 @@ impl From<&Compiled> for Size {
         Size {
             model: compiled.model.name,
             steps: compiled.steps,
+        }
+    }
+}
+
+impl Reporting {
+    /// Which findings count, and how much.
+    pub fn levels(&self) -> Levels {
+        Levels {
+            allow: self.allow.clone(),
+            deny: self.deny.clone(),
+            deny_warnings: self.deny_warnings,
+            rules: self.rules.clone(),
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! A run is scans and the time between them. [`Session::scan`] executes a scan, [`Session::pass`] lets the time until
 //! the next one pass, a millisecond at a time: the hardware and the machine advance, pulses and ports tick, and
-//! interrupts are taken. A caller with work of its own within a millisecond calls its three parts:
+//! interrupts are taken. A caller that has to do something within a millisecond calls its three parts:
 //! [`advance`](Session::advance), [`tick`](Session::tick), [`take_interrupts`](Session::take_interrupts).
 
 mod forced;

@@ -1,11 +1,11 @@
 //! Questions as other tools read them: the files are evaluated along runs of the interpreter.
 
-use super::run::{Goal, Rig};
+use super::attack::value_of;
+use super::run::{Goal, Rig, Run, State};
 use rungc_ir::Module;
 use rungc_sim::property::Condition;
 use rungc_verify::aig::Node;
 use rungc_verify::model::{Digit, Input, Key};
-use rungc_verify::steered::{Run, State, Subject, value_of};
 use rungc_verify::system::System;
 use rungc_verify::{aiger, btor2};
 use std::collections::BTreeMap;
