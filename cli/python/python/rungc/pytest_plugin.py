@@ -38,28 +38,25 @@ class Recorded:
     def _use(self, name, value):
         if name not in self._names:
             self._names.append(name)
-        self._note(name, value)
+        self._note(self._plc.now_ms, name, value)
 
-    def _note(self, name, value):
+    def _note(self, ms, name, value):
         last = next((v for _, n, v in reversed(self._log) if n == name), None)
         if last != value:
-            self._log.append((self._plc.now_ms, name, value))
+            self._log.append((ms, name, value))
 
     def run(self, *, ms):
         """Let time pass, and note when the devices that the test uses change."""
         trace = self._plc.trace(self._names, ms=ms)
         for at, now in enumerate(trace["ms"]):
             for name in self._names:
-                value = trace[name][at]
-                last = next((v for _, n, v in reversed(self._log) if n == name), None)
-                if last != value:
-                    self._log.append((now, name, value))
+                self._note(now, name, trace[name][at])
 
     def scan(self, count=1):
         for _ in range(count):
             self._plc.scan()
             for name in self._names:
-                self._note(name, self._plc[name])
+                self._note(self._plc.now_ms, name, self._plc[name])
 
     def history(self) -> str:
         """The devices that the test used, and when they changed."""
