@@ -299,7 +299,7 @@ pub fn search(question: &dyn Question, world: &World, posed: &Posed, limit: &Lim
         if let Some(answer) = ways.round(effort) {
             return answer;
         }
-        effort *= factor;
+        effort = effort.saturating_mul(factor);
     }
     while !limit.is_over() && hunt.spurious.is_none() {
         if let Some(verdict) = hunt.step() {
@@ -359,6 +359,8 @@ struct Ways<'a> {
     /// The same where a scan may come any time after the one before, so that a few scans show what takes many. What is
     /// proved for any time between scans holds for shorter times, too.
     free_scan_times: Attempt<'a>,
+    /// True if more effort shows no run there.
+    free_runs_are_over: bool,
     /// Runs that are longer than a search scan by scan can reach.
     long_runs: LongRuns<'a>,
     limit: &'a Limit,
@@ -390,17 +392,20 @@ impl<'a> Ways<'a> {
             as_it_is,
             timers_abstracted: abstracts.then(|| Attempt::new(abstracted)),
             free_scan_times: Attempt::new(free_scan_times),
+            free_runs_are_over: false,
             long_runs: LongRuns::new(&posed.system, world.scan_ms),
             limit,
         }
     }
 
-    /// Returns true if no proof can be found any more, nor a run that the interpreter confirms.
+    /// Returns true if no proof can be found any more, nor a run that the interpreter confirms, other than by a search
+    /// scan by scan: rounds with more effort would do the same again and spend nothing.
     fn are_exhausted(&self, hunt: &Hunt) -> bool {
         let mut attempts = [&self.free_scan_times, &self.as_it_is]
             .into_iter()
             .chain(&self.timers_abstracted);
-        hunt.spurious.is_some() && attempts.all(|attempt| !attempt.may_hold)
+        let has_runs = !self.free_runs_are_over || !self.long_runs.are_over();
+        attempts.all(|attempt| !attempt.may_hold) && (hunt.spurious.is_some() || !has_runs)
     }
 
     /// Tries each with this effort.
@@ -438,7 +443,10 @@ impl<'a> Ways<'a> {
     }
 
     /// Searches a run where a scan may come any time after the one before: it is replayed with scans in between.
-    fn with_free_scan_times(&self, effort: u64) -> Option<Verdict> {
+    fn with_free_scan_times(&mut self, effort: u64) -> Option<Verdict> {
+        if self.free_runs_are_over {
+            return None;
+        }
         let (posed, part) = self.free_scan_times.begin(effort, self.limit);
         let mut hunt = Hunt::new(self.question, self.world, &posed.system, &part);
         for _ in 0..2 * INDUCTION {
@@ -450,6 +458,7 @@ impl<'a> Ways<'a> {
                 return found;
             }
         }
+        self.free_runs_are_over = !part.is_over();
         None
     }
 }
@@ -516,11 +525,12 @@ impl<'a> Hunt<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Attempt, OfProperty, Options, Question, Verdict, Ways, decide};
+    use super::{Attempt, OfProperty, Options, Question, Verdict, Ways, Why, decide, search};
     use crate::certificate::formulas;
     use crate::model::World;
-    use crate::proof::{Fact, Proof};
+    use crate::proof::{Fact, Posed, Proof};
     use crate::sat::{Answer, Solver};
+    use crate::search::Trace;
     use crate::tests::module;
     use rungc_sim::property::{Property, parse};
     use std::time::{Duration, Instant};
@@ -656,5 +666,48 @@ mod tests {
             panic!("{decision:?}");
         };
         assert!(trace.scans.len() > 80, "{} scans", trace.scans.len());
+    }
+
+    /// A question whose runs happen in the model only.
+    struct NeverHappens<'a>(OfProperty<'a>);
+
+    impl Question for NeverHappens<'_> {
+        fn posed(&self, world: &World) -> Posed {
+            self.0.posed(world)
+        }
+
+        fn happens(&self, _trace: &Trace) -> Option<usize> {
+            None
+        }
+
+        fn scan_steps(&self) -> usize {
+            1
+        }
+    }
+
+    #[test]
+    fn rounds_end_where_more_effort_shows_nothing() {
+        // Each round would show the same runs again and spend next to nothing.
+        let module = module("LD X000\nOUT T0 K20\nEND\n");
+        let property = Property::Never(parse("T0", &|_| Vec::new()).unwrap());
+        let options = Options {
+            world: World {
+                scan_ms: 100,
+                ..World::default()
+            },
+            ..Options::default()
+        };
+        let question = NeverHappens(OfProperty {
+            module: &module,
+            property: &property,
+            options: &options,
+        });
+        let posed = question.posed(&options.world);
+        let answer = search(&question, &options.world, &posed, &options.limit());
+        // Twenty scans later the timer expires, in the model.
+        assert_eq!(
+            answer.verdict,
+            Verdict::Undecided(Why::Spurious { scans: 21 })
+        );
     }
 }

@@ -41,6 +41,11 @@ impl<'s> LongRuns<'s> {
         }
     }
 
+    /// Returns true if too many runs were shown that do not happen.
+    pub fn are_over(&self) -> bool {
+        self.failed >= ATTEMPTS
+    }
+
     /// Continues up to a limit; `happens` runs what was found on the interpreter.
     pub fn search(
         &mut self,
@@ -48,7 +53,7 @@ impl<'s> LongRuns<'s> {
         happens: &mut dyn FnMut(&Trace) -> bool,
     ) -> Option<Trace> {
         let scans = SCANS.min(WORDS / self.system.inputs.len().max(1));
-        while !limit.is_over() && self.failed < ATTEMPTS {
+        while !limit.is_over() && !self.are_over() {
             let mut lanes = match self.lanes.take() {
                 Some(lanes) => lanes,
                 None => {
