@@ -27,22 +27,19 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
     Chosen::of(args, cx)?;
     let mut inputs: BTreeSet<PathBuf> = BTreeSet::new();
     loop {
-        let unread = look(args, &inputs);
+        let before = look(args, &inputs);
         let chosen = Chosen::of(args, cx);
         let loaded = chosen.and_then(|chosen| {
             let files = chosen.load(args, cx);
             let files = files.map_err(|unread| unread.failure(cx))?;
             Ok((chosen, files))
         });
-        // The inputs of a file are known once it can be read; until then, the previous ones apply.
+        // The inputs of a file are known once it can be read; until then, the previous ones apply. Files whose state
+        // before the reading is unknown are read again: they may have been half written.
         if let Ok((chosen, files)) = &loaded {
-            inputs = all_inputs(args, chosen, files);
-        }
-        let mut before = look(args, &inputs);
-        // A file that is saved after it was read, and before this, has changed.
-        for (path, state) in &mut before {
-            if let Some(earlier) = unread.get(path) {
-                *state = *earlier;
+            let known = std::mem::replace(&mut inputs, all_inputs(args, chosen, files));
+            if inputs != known {
+                continue;
             }
         }
         let ran = loaded.and_then(|(chosen, files)| run_files(args, &chosen, files, cx));
