@@ -1,7 +1,7 @@
-//! Limits of operands that an index register changes, where the runtime's function accepts more than the model.
+//! Limits of operands that are known at run time, where the runtime's function accepts more than the model.
 
 use super::Lowerer;
-use super::operand::OUT_OF_RANGE;
+use super::operand::{Guards, OUT_OF_RANGE};
 use rungc_catalogue::{Limits, Param, Rule};
 use rungc_ir::node::{Action, BinOp, Branch, Expr, ExprId, Stmt};
 use rungc_rt::CmpOp;
@@ -42,50 +42,70 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Conditions that operands with an index are within the model's limits, with the codes of their faults.
+    /// Conditions that operands are within the model's limits, with the codes of their faults.
     fn limit_checks(&mut self) -> Vec<(ExprId, u16)> {
         let params = self.resolution().params;
-        let operands = self.instr().operands.iter().map(|operand| &operand.kind);
-        let indexed = operands.zip(params).filter_map(|(kind, param)| {
-            let of_constant = |value, index| {
-                let limits = self.constant_limits(param).filter(|_| param.checked);
-                Some((value, index, limits?, true))
-            };
-            match *kind {
-                OperandKind::Decimal(value, Some(index)) => of_constant(value, index),
-                OperandKind::Hex(value, Some(index)) => of_constant(value as i64, index),
-                OperandKind::Device(device, Some(index)) => {
+        let operands = self
+            .instr()
+            .operands
+            .iter()
+            .map(|operand| operand.kind.clone());
+        let mut checks = Vec::new();
+        for (n, (kind, param)) in operands.zip(params).enumerate() {
+            let limits = self.constant_limits(param).filter(|_| param.checked);
+            match kind {
+                OperandKind::Decimal(value, Some(index)) => {
+                    checks.extend(self.constant_checks(value, index, limits));
+                }
+                OperandKind::Hex(value, Some(index)) => {
+                    checks.extend(self.constant_checks(value as i64, index, limits));
+                }
+                OperandKind::Device(device, index) => {
                     let numbers = param.numbers_on(self.model).iter();
                     let of_class = numbers.filter(|numbers| numbers.0 == device.class);
                     let range = of_class
                         .map(|&(_, first, last)| (i64::from(first), i64::from(last)))
-                        .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
-                    Some((device.number.into(), index, range, false))
+                        .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+                    if let (Some(index), Some(range)) = (index, range) {
+                        let conds =
+                            self.index_conditions(device.number as i32, index, range, false);
+                        checks.extend(conds.map(|cond| (cond, OUT_OF_RANGE)));
+                    }
+                    if let Some((least, most)) = limits {
+                        let mut guards = Guards::default();
+                        let value = self.source(n, &mut guards);
+                        checks.extend(guards.conditions().map(|cond| (cond, OUT_OF_RANGE)));
+                        let fits = self.lies_in(value, (least as i32, most as i32));
+                        checks.push((fits, self.model.value_error));
+                    }
                 }
-                OperandKind::Device(_, None)
-                | OperandKind::Decimal(_, None)
+                OperandKind::Decimal(_, None)
                 | OperandKind::Hex(_, None)
                 | OperandKind::WordBit(..)
                 | OperandKind::Nibbles(..)
                 | OperandKind::Float(_)
                 | OperandKind::Text(_)
                 | OperandKind::Buffer { .. }
-                | OperandKind::Unreadable(_) => None,
+                | OperandKind::Unreadable(_) => {}
             }
-        });
-        let indexed: Vec<_> = indexed.collect();
-        let checks = indexed
+        }
+        checks
+    }
+
+    /// Conditions that a constant with an index is within limits, if it has some.
+    fn constant_checks(
+        &mut self,
+        value: i64,
+        index: Index,
+        limits: Option<(i64, i64)>,
+    ) -> Vec<(ExprId, u16)> {
+        let code = self.model.value_error;
+        let conds = limits.map(|range| self.index_conditions(value as i32, index, range, true));
+        conds
             .into_iter()
-            .flat_map(|(base, index, range, constant)| {
-                let code = if constant {
-                    self.model.value_error
-                } else {
-                    OUT_OF_RANGE
-                };
-                let conds = self.index_conditions(base as i32, index, range, constant);
-                conds.map(|cond| (cond, code))
-            });
-        checks.collect()
+            .flatten()
+            .map(|cond| (cond, code))
+            .collect()
     }
 
     /// Limits of a constant in the form at hand.

@@ -27,6 +27,11 @@ impl Guards {
         self.demanded.is_empty() && self.fetched.is_empty()
     }
 
+    /// The conditions that are not yet tested.
+    pub(super) fn conditions(self) -> impl Iterator<Item = ExprId> {
+        self.demanded.into_iter()
+    }
+
     /// One more condition.
     pub(super) fn demand(&mut self, cond: ExprId) {
         self.demanded.push(cond);

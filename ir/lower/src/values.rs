@@ -152,7 +152,7 @@ impl Lowerer<'_> {
     }
 
     /// Condition that a value lies between two numbers.
-    fn lies_in(&mut self, value: ExprId, (least, most): (i32, i32)) -> ExprId {
+    pub(super) fn lies_in(&mut self, value: ExprId, (least, most): (i32, i32)) -> ExprId {
         let wide = self.wide();
         let [least, most] = [least, most].map(|end| self.int(end, wide));
         let not_below = self.add(Expr::Cmp(CmpOp::Ge, value, least));

@@ -189,8 +189,8 @@ pub struct Param {
     pub extent: Extent,
     /// Allowed constants.
     pub limits: Limits,
-    /// True if compiled code holds a constant with an index register to the limits: the runtime's function, which other
-    /// models share, accepts more.
+    /// True if compiled code holds a constant with an index register, or a register, to the limits: the runtime's
+    /// function, which other models share, accepts more.
     pub checked: bool,
     /// Numbers that devices of these classes must have, first to last; classes that are not listed are free.
     pub numbers: &'static [(DeviceClass, u32, u32)],

@@ -18,6 +18,7 @@ const ROTATE_HM: &[Param] = &[
     ROTATED,
     count("n", 1, 16)
         .also(DATA)
+        .checked()
         .rules(&[Rule::WideLimits(1, 32)]),
 ];
 const ROTATE_INOVANCE: &[Param] = &[
@@ -26,7 +27,13 @@ const ROTATE_INOVANCE: &[Param] = &[
         .checked()
         .rules(&[Rule::WideLimits(1, 32)]),
 ];
-const ROTATE_CARRY_HM: &[Param] = &[ROTATED, count("n", 1, 15).rules(&[Rule::WideLimits(1, 31)])];
+const ROTATE_CARRY_HM: &[Param] = &[
+    ROTATED,
+    count("n", 1, 15)
+        .also(DATA)
+        .checked()
+        .rules(&[Rule::WideLimits(1, 31)]),
+];
 
 const fn shift_bits(n1: Param, n2: Param) -> [Param; 4] {
     [

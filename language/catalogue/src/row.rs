@@ -407,7 +407,7 @@ impl Param {
         Param { limits, ..self }
     }
 
-    /// Compiled code holds constants with an index register to the limits.
+    /// Compiled code holds registers, and constants with an index register, to the limits.
     pub(super) const fn checked(self) -> Self {
         let checked = true;
         Param { checked, ..self }

@@ -155,6 +155,11 @@ fn examine(pools: &Pools, seed: u64, extent: Extent) -> Results {
         results.rejected += 1;
         return results;
     };
+    // Each question would make that logic again.
+    if is_too_large(&question) {
+        results.rejected += 1;
+        return results;
+    }
     results.programs += 1;
     let mut examination = Examination {
         question,
@@ -170,6 +175,15 @@ fn examine(pools: &Pools, seed: u64, extent: Extent) -> Results {
     }
     examination.planted();
     examination.results
+}
+
+/// Returns true if the logic of a program, without a property, is too large.
+fn is_too_large(question: &Question) -> bool {
+    let Some(module) = question.written.module(&question.options, &[]) else {
+        return false;
+    };
+    let encoder = Encoder::scan(&module, question.options.world.clone());
+    encoder.aig.nodes().len() > NODES
 }
 
 /// A program under examination.
