@@ -123,8 +123,30 @@ fn broken_argument() -> Option<String> {
     Some(report::visible_line(&broken).into_owned())
 }
 
-/// The error about an option with a negative value, which no option takes: without the advice to put it after `--`.
+/// Words of other tools, and the commands that do what they mean.
+const OTHER_WORDS: [(&str, &str); 8] = [
+    ("compile emit generate make", "build"),
+    ("lint validate analyse analyze", "check"),
+    ("ladder draw show print svg", "view"),
+    ("prove proof", "verify"),
+    ("simulate sim start exec interpret", "run"),
+    ("export import decompile translate", "convert"),
+    ("upload download backup", "read"),
+    ("format", "fmt"),
+];
+
+/// An error with better advice: for an unknown command, the one that does what the word means elsewhere; for an option
+/// with a negative value, which no option takes, without that to put it after `--`.
 fn advised(mut error: clap::Error) -> clap::Error {
+    if let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidSubcommand) {
+        let unknown = unknown.to_ascii_lowercase();
+        let means = |words: &str| words.split(' ').any(|word| word == unknown);
+        if let Some((_, command)) = OTHER_WORDS.iter().find(|(words, _)| means(words)) {
+            let known = ContextValue::Strings(vec![(*command).to_string()]);
+            error.insert(ContextKind::SuggestedSubcommand, known);
+        }
+        return error;
+    }
     let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidArg) else {
         return error;
     };
