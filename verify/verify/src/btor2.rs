@@ -20,7 +20,11 @@ pub fn text(system: &System, gaps: &[Gap], asked: &str) -> String {
         .iter()
         .filter_map(|(_, input)| match input {
             Input::Gap(n) => Some(*n),
-            Input::Device(..) | Input::Time(..) | Input::ScanTime(_) | Input::Restart => None,
+            Input::Device(..)
+            | Input::Shown(..)
+            | Input::Time(..)
+            | Input::ScanTime(_)
+            | Input::Restart => None,
         })
         .collect();
     for (n, gap) in gaps.iter().enumerate().filter(|(n, _)| used.contains(n)) {
@@ -129,7 +133,7 @@ impl File {
 
 fn of_input(input: Input) -> String {
     match input {
-        Input::Device(key, bit) => of_bit(key, bit),
+        Input::Device(key, bit) | Input::Shown(key, bit) => of_bit(key, bit),
         Input::Time(digit, bit) => {
             let digit = match digit {
                 Digit::Hundreds => "hundreds",

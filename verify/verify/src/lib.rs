@@ -27,6 +27,7 @@ pub mod replay;
 pub mod same;
 pub mod sat;
 pub mod search;
+pub mod steered;
 pub mod system;
 pub mod unroll;
 pub mod vacuous;

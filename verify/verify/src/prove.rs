@@ -1,18 +1,21 @@
 //! From a program and a property to a verdict.
 
+mod scans;
+
 use crate::effort::Limit;
-use crate::model::{AFTER_STOP, Encoder, Gap, Input, Key, World};
+use crate::model::{AFTER_STOP, Encoder, Gap, Input, Key, World, gaps_of};
 use crate::pdr;
 use crate::proof::{Method, Posed, Proof};
 use crate::property::{condition, event};
 use crate::random::LongRuns;
 use crate::replay;
-use crate::search::{Bounded, Induction, Step, Trace};
+use crate::search::Trace;
+use crate::steered::{Plant, Steered, Surroundings};
 use crate::system::System;
 use rungc_ir::Module;
 use rungc_sim::property::{Condition, Property};
+use scans::{Hunt, ScanByScan};
 use std::cell::LazyCell;
-use std::collections::BTreeSet;
 use std::time::Duration;
 
 /// Options of a decision.
@@ -167,7 +170,7 @@ pub fn system<'m>(
 }
 
 /// A question about runs: whether one can do something.
-pub trait Question {
+pub(crate) trait Question {
     /// The question in this world.
     fn posed(&self, world: &World) -> Posed;
 
@@ -176,6 +179,16 @@ pub trait Question {
 
     /// Steps of a scan of such a run.
     fn scan_steps(&self) -> usize;
+
+    /// Returns true if the answer depends on something that the logic leaves open.
+    fn leaves_open(&self) -> bool {
+        false
+    }
+
+    /// A search for a run on the interpreter, with these steps of its limit, if the question has one.
+    fn steered<'q>(&'q self, _limit: &Limit) -> Option<Steered<Plant<'q>>> {
+        None
+    }
 
     /// Returns true if the answer may abstract from the time at which timers expire.
     fn abstracts_timers(&self) -> bool {
@@ -188,6 +201,7 @@ struct OfProperty<'a> {
     module: &'a Module,
     property: &'a Property,
     options: &'a Options,
+    surroundings: Surroundings,
 }
 
 impl Question for OfProperty<'_> {
@@ -206,20 +220,29 @@ impl Question for OfProperty<'_> {
     fn scan_steps(&self) -> usize {
         self.module.exprs.len()
     }
+
+    fn leaves_open(&self) -> bool {
+        self.surroundings.is_open
+    }
+
+    fn steered<'q>(&'q self, limit: &Limit) -> Option<Steered<Plant<'q>>> {
+        let plant = Plant::new(self.module, self.property, &self.options.assumed, limit);
+        let Surroundings {
+            outside, watched, ..
+        } = self.surroundings.clone();
+        Some(Steered::new(plant, outside, watched, (SEED, LONGEST)))
+    }
 }
 
 /// Decides whether a program has a property.
 pub fn decide(module: &Module, property: &Property, options: &Options) -> Decision {
     let limit = options.limit();
     let (encoder, system) = system(module, property, options);
-    let of_cone = |wanted: &dyn Fn(&Input) -> bool| system.inputs.iter().any(|(_, i)| wanted(i));
-    let gaps = encoder
-        .gaps
-        .iter()
-        .enumerate()
-        .filter(|(n, _)| of_cone(&|input| *input == Input::Gap(*n)))
-        .map(|(_, gap)| gap.clone());
-    let in_cone = |key: &Key| of_cone(&|input| matches!(input, Input::Device(of, _) if of == key));
+    let mut gaps = gaps_of(&system, &encoder.gaps);
+    let in_cone = |key: &Key| {
+        let mut inputs = system.inputs.iter();
+        inputs.any(|(_, input)| matches!(input, Input::Device(of, _) if of == key))
+    };
     let (free, unwritten): (Vec<Key>, Vec<Key>) = encoder
         .opened()
         .filter(in_cone)
@@ -228,8 +251,8 @@ pub fn decide(module: &Module, property: &Property, options: &Options) -> Decisi
         module,
         property,
         options,
+        surroundings: Surroundings::new(&encoder, &system, options.world.scan_ms),
     };
-    let mut gaps = BTreeSet::from_iter(gaps);
     let latches = system.latches.len();
     let answer = search(&question, &options.world, &system.into(), &limit);
     // A proof holds for whatever is there after STOP; it is named where it may be the reason that there is none.
@@ -252,6 +275,28 @@ pub const FOREVER_MS: u32 = 4_000_000;
 /// Initial effort for each way, and its factor in the next round.
 const ROUND: (u64, u64) = (500, 4);
 
+/// Effort for runs by chance in a round, as a multiple of that for another way.
+const BY_CHANCE: u64 = 2;
+
+/// Part of the effort for runs by chance that those on the interpreter take, where they may show more: a half. It comes
+/// off the runs of the logic, so that proofs have what they had.
+const ON_INTERPRETER: u64 = 2;
+
+/// Part of what is left for runs on the interpreter where nothing else can decide: an eighth, since a run that is not
+/// found soon is seldom found later.
+const LAST: u64 = 8;
+
+/// Part of the effort for a search scan by scan before other ways have their turn: a half, so that large logic leaves
+/// them something.
+const SCAN_BY_SCAN: u64 = 2;
+
+/// Number of the sequence of runs by chance on the interpreter.
+const SEED: u64 = 1;
+
+/// The most scans of a stretch of one: more than counters of parts and timers of minutes take, and few beside all scans
+/// of a turn.
+const LONGEST: u64 = 4096;
+
 /// Returns after how many scans of a trace what is searched for has happened, and counts its steps.
 fn shown(question: &dyn Question, limit: &Limit, trace: &Trace) -> Option<usize> {
     limit.charge(trace.scans.len() * question.scan_steps());
@@ -259,54 +304,57 @@ fn shown(question: &dyn Question, limit: &Limit, trace: &Trace) -> Option<usize>
 }
 
 /// Number of scans after which an invariant is searched for the first time.
-const EARLY: usize = 3;
+const EARLY: usize = 2;
+
+/// Limit of the effort for leaving out of a run what does not matter.
+const PLAIN: u64 = 2000;
 
 /// Bounded search and induction side by side, and soon a first attempt at an invariant; then, in rounds that give each
-/// of them more effort, the ways of [`Ways`]; then bounded search alone. `posed` is the question in this world.
-pub fn search(question: &dyn Question, world: &World, posed: &Posed, limit: &Limit) -> Answer {
-    let mut hunt = Hunt::new(question, world, &posed.system, limit);
-    // A proof must hold for what a replay cannot show, too.
-    let mut complete = Bounded::new(&posed.system, false, limit);
-    let mut induction = Induction::new(&posed.system, limit);
+/// of them more effort, these and the ways of [`Ways`]; then bounded search alone. `posed` is the question in this
+/// world.
+pub(crate) fn search(
+    question: &dyn Question,
+    world: &World,
+    posed: &Posed,
+    limit: &Limit,
+) -> Answer {
+    let mut scans = ScanByScan::new(question, world, posed, limit);
     let mut as_it_is = Attempt::new(|| posed.clone().simplified(&limit.part(ROUND.0)));
-    for scans in 1..=INDUCTION {
-        // Bits that are always equal make a proof short: where the clock of a duration equals a timer of the program,
-        // no
-        // search scan by scan comes to an end.
-        if scans == EARLY
-            && let Some(proof) = as_it_is.invariant(ROUND.0 / 2, limit)
-        {
-            return proof.into();
-        }
-        if let Some(verdict) = hunt.step() {
-            return verdict.into();
-        }
-        match complete.step() {
-            Step::Holds if induction.step() => {
-                return posed.proof(Method::Induction(scans)).into();
-            }
-            Step::Holds => {}
-            Step::Impossible => {
-                let scans = complete.scans();
-                return Verdict::Undecided(Why::Contradiction { scans }).into();
-            }
-            Step::Violated(_) | Step::TimeUp => break,
-        }
+    if let Some(answer) = scans.search(EARLY, limit) {
+        return answer;
+    }
+    // Bits that are always equal make a proof short: where the clock of a duration equals a timer of the program, no
+    // search scan by scan comes to an end.
+    if !scans.ends
+        && let Some(proof) = as_it_is.invariant(ROUND.0 / 2, limit)
+    {
+        return proof.into();
+    }
+    if let Some(answer) = scans.search(INDUCTION, &limit.share(SCAN_BY_SCAN)) {
+        return answer;
     }
     let mut ways = Ways::new(question, world, (posed, as_it_is), limit);
     let (mut effort, factor) = ROUND;
-    while !limit.is_over() && !ways.are_exhausted(&hunt) {
-        if let Some(answer) = ways.round(effort) {
+    while !limit.is_over() && !ways.are_exhausted(&scans.hunt) {
+        if let Some(answer) = ways.round(effort, &scans.hunt) {
+            return answer;
+        }
+        if let Some(answer) = scans.search(INDUCTION, &limit.part(effort)) {
             return answer;
         }
         effort = effort.saturating_mul(factor);
     }
-    while !limit.is_over() && hunt.spurious.is_none() {
-        if let Some(verdict) = hunt.step() {
+    if scans.hunt.spurious.is_some()
+        && let Some(found) = ways.runs_on_interpreter(&limit.share(LAST))
+    {
+        return found.into();
+    }
+    while !limit.is_over() && scans.hunt.spurious.is_none() {
+        if let Some(verdict) = scans.hunt.step() {
             return verdict.into();
         }
     }
-    hunt.undecided().into()
+    scans.hunt.undecided().into()
 }
 
 /// A system in which an invariant is searched. It is made when it is first needed: most questions are answered before.
@@ -363,6 +411,12 @@ struct Ways<'a> {
     free_runs_are_over: bool,
     /// Runs that are longer than a search scan by scan can reach.
     long_runs: LongRuns<'a>,
+    /// Runs on the interpreter, where nothing is left open.
+    steered: Option<Steered<Plant<'a>>>,
+    /// True if the logic shows a run that the interpreter does not confirm, or leaves something open.
+    is_open: bool,
+    /// Number of rounds so far.
+    rounds: u32,
     limit: &'a Limit,
 }
 
@@ -394,6 +448,9 @@ impl<'a> Ways<'a> {
             free_scan_times: Attempt::new(free_scan_times),
             free_runs_are_over: false,
             long_runs: LongRuns::new(&posed.system, world.scan_ms),
+            steered: question.steered(limit),
+            is_open: question.leaves_open(),
+            rounds: 0,
             limit,
         }
     }
@@ -409,8 +466,10 @@ impl<'a> Ways<'a> {
     }
 
     /// Tries each with this effort.
-    fn round(&mut self, effort: u64) -> Option<Answer> {
+    fn round(&mut self, effort: u64, hunt: &Hunt) -> Option<Answer> {
         let limit = self.limit;
+        self.rounds += 1;
+        self.is_open |= hunt.spurious.is_some();
         let abstracted = self.timers_abstracted.as_mut();
         if let Some(proof) = abstracted.and_then(|attempt| attempt.invariant(effort, limit)) {
             return Some(proof.into());
@@ -421,25 +480,46 @@ impl<'a> Ways<'a> {
         if let Some(proof) = self.free_scan_times.invariant(effort, limit) {
             return Some(proof.into());
         }
-        // Runs by chance continue where they were; the others begin anew.
-        if let Some(found) = self.random_runs(&limit.part(2 * effort)) {
+        if let Some(found) = self.runs_by_chance(BY_CHANCE * effort) {
             return Some(found.into());
         }
         self.as_it_is.invariant(effort, limit).map(Answer::from)
     }
 
-    /// Continues the search over long runs.
-    fn random_runs(&mut self, part: &Limit) -> Option<Verdict> {
+    /// Continues runs by chance where they were: on the interpreter where the logic leaves something open, or after a
+    /// round in which no way has decided; and over the logic.
+    fn runs_by_chance(&mut self, effort: u64) -> Option<Verdict> {
+        let all = self.limit.part(effort);
+        if self.is_open || self.rounds > 1 {
+            let found = self.runs_on_interpreter(&all.share(ON_INTERPRETER));
+            if found.is_some() {
+                return found;
+            }
+        }
         let happens = |trace: &Trace| shown(self.question, self.limit, trace);
         let happened = &mut |trace: &Trace| happens(trace).is_some();
-        let found = self.long_runs.search(part, happened)?;
+        let found = self.long_runs.search(&all, happened)?;
+        Some(self.found(found))
+    }
+
+    /// Continues runs by chance on the interpreter, if the question has them.
+    fn runs_on_interpreter(&mut self, part: &Limit) -> Option<Verdict> {
+        let run = self.steered.as_mut()?.search(&|_| part.is_over())?;
+        let trace = run.trace();
+        let happens = shown(self.question, self.limit, &trace).is_some();
+        happens.then(|| self.found(trace))
+    }
+
+    /// Verdict of a run, which is simplified first.
+    fn found(&self, found: Trace) -> Verdict {
+        let happens = |trace: &Trace| shown(self.question, self.limit, trace);
         let short = replay::shortened(&happens, found, &self.limit.share(4).part(PLAIN));
-        Some(Verdict::Found(replay::plain(
+        Verdict::Found(replay::plain(
             &happens,
             self.world.scan_ms,
             short,
             &self.limit.part(PLAIN),
-        )))
+        ))
     }
 
     /// Searches a run where a scan may come any time after the one before: it is replayed with scans in between.
@@ -459,73 +539,16 @@ impl<'a> Ways<'a> {
             }
         }
         self.free_runs_are_over = !part.is_over();
+        self.is_open |= hunt.spurious.is_some();
         None
-    }
-}
-
-/// Limit of the effort for leaving out of a run what does not matter.
-const PLAIN: u64 = 2000;
-
-/// A search for a run that the interpreter confirms.
-struct Hunt<'a> {
-    question: &'a dyn Question,
-    /// The most milliseconds from one scan of the program to the next.
-    scan_ms: u32,
-    limit: Limit,
-    bounded: Bounded<'a>,
-    /// Length of the first run that the interpreter did not confirm.
-    spurious: Option<usize>,
-}
-
-impl<'a> Hunt<'a> {
-    fn new(question: &'a dyn Question, world: &World, system: &'a System, limit: &Limit) -> Self {
-        Hunt {
-            limit: limit.clone(),
-            question,
-            scan_ms: world.scan_ms,
-            bounded: Bounded::new(system, true, limit),
-            spurious: None,
-        }
-    }
-
-    /// Searches one scan further, unless nothing can be confirmed any more.
-    fn step(&mut self) -> Option<Verdict> {
-        if self.spurious.is_some() {
-            return None;
-        }
-        let Step::Violated(trace) = self.bounded.step() else {
-            return None;
-        };
-        let happens = |trace: &Trace| shown(self.question, &self.limit, trace);
-        let stretched = replay::stretched(&trace, self.scan_ms);
-        let Some(trace) = stretched.filter(|trace| happens(trace).is_some()) else {
-            self.spurious = Some(self.bounded.scans());
-            return None;
-        };
-        let plain = replay::plain(&happens, self.scan_ms, trace, &self.limit.part(PLAIN));
-        Some(Verdict::Found(plain))
-    }
-
-    fn undecided(&self) -> Verdict {
-        Verdict::Undecided(match self.spurious {
-            Some(scans) => Why::Spurious { scans },
-            None => {
-                let scans = self.bounded.scans().saturating_sub(1);
-                match self.limit.is_late() {
-                    true => Why::Time { scans },
-                    false => Why::Effort {
-                        scans,
-                        effort: self.limit.effort(),
-                    },
-                }
-            }
-        })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Attempt, OfProperty, Options, Question, Verdict, Ways, Why, decide, search};
+    use super::{
+        Attempt, OfProperty, Options, Question, Surroundings, Verdict, Ways, Why, decide, search, system,
+    };
     use crate::certificate::formulas;
     use crate::model::World;
     use crate::proof::{Fact, Posed, Proof};
@@ -552,10 +575,13 @@ mod tests {
             effort: 60_000,
             time: None,
         };
+        let property = Property::Never(both);
+        let (encoder, system) = system(&module, &property, &options);
         let question = OfProperty {
             module: &module,
-            property: &Property::Never(both),
+            property: &property,
             options: &options,
+            surroundings: Surroundings::new(&encoder, &system, options.world.scan_ms),
         };
         let limit = options.limit();
         let posed = question.posed(&options.world);

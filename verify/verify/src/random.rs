@@ -22,6 +22,17 @@ impl Random {
         Random(0x9E37_79B9_7F4A_7C15)
     }
 
+    /// A separate sequence for each seed.
+    pub fn seeded(seed: u64) -> Self {
+        // The state must not be 0.
+        let state = seed.wrapping_mul(0xBF58_476D_1CE4_E5B9) ^ Self::new().0;
+        let mut random = Random(state.max(1));
+        for _ in 0..4 {
+            random.bits();
+        }
+        random
+    }
+
     /// 64 bits.
     pub fn bits(&mut self) -> u64 {
         self.0 ^= self.0 << 13;
@@ -33,6 +44,33 @@ impl Random {
     /// One of the numbers below this.
     pub fn below(&mut self, end: u64) -> u64 {
         self.bits() % end
+    }
+
+    /// True this many times in a hundred.
+    pub fn percent(&mut self, percent: u64) -> bool {
+        self.below(100) < percent
+    }
+
+    /// One of these; `None` if there is none.
+    pub fn pick<T: Copy>(&mut self, from: &[T]) -> Option<T> {
+        let number = self.bits().checked_rem(from.len() as u64)?;
+        from.get(number as usize).copied()
+    }
+
+    /// From 0 to less than 1.
+    pub fn fraction(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// A signed value of this many bits: small, at a border, or any.
+    pub fn value(&mut self, bits: u32) -> i64 {
+        let max = (1i64 << (bits - 1)) - 1;
+        match self.below(8) {
+            0..4 => self.below(20) as i64 - 4,
+            4 => max - self.below(3) as i64,
+            5 => self.below(3) as i64 - max - 1,
+            _ => (self.bits() as i64) >> (64 - bits),
+        }
     }
 }
 
@@ -100,7 +138,7 @@ impl<'s> Lanes<'s> {
                 Input::Device(..) => {}
                 Input::Time(digit, bit) => *held = part_of(ms, digit, bit),
                 Input::ScanTime(_) | Input::Restart => *held = 0,
-                Input::Gap(_) => *held = random.bits(),
+                Input::Shown(..) | Input::Gap(_) => *held = random.bits(),
             }
         }
         self.evaluate();
@@ -117,7 +155,7 @@ impl<'s> Lanes<'s> {
                 Input::Device(..) => *held ^= seldom.changes(random),
                 Input::Time(digit, bit) => *held = part_of(ms, digit, bit),
                 Input::ScanTime(_) | Input::Restart => *held = 0,
-                Input::Gap(_) => *held = random.bits() & habits.gaps,
+                Input::Shown(..) | Input::Gap(_) => *held = random.bits() & habits.gaps,
             }
         }
         self.evaluate();

@@ -4,8 +4,10 @@ use crate::effort::Limit;
 use crate::model::device_of;
 use crate::model::{CounterPart, Key, TimerPart};
 use crate::search::{Scan, Trace};
-use rungc_interp::{Machine, rt_class};
+use rungc_interp::{Machine, Saved, rt_class};
 use rungc_ir::Module;
+use rungc_ir::node::{Action, Stmt};
+use rungc_ir::walk::statements;
 use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
 use rungc_sim::property::{Condition, Monitor, Property, Reading, Watcher};
 use rungc_sim::record::Seen;
@@ -67,24 +69,74 @@ pub struct Run<'m> {
     /// The program.
     pub machine: Machine<'m>,
     hal: VirtualHal,
+    has_hardware: bool,
     now_ms: u32,
     first: bool,
+}
+
+/// State of a [`Run`] between two scans.
+pub(crate) struct Moment {
+    machine: Saved,
+    hal: Option<Box<VirtualHal>>,
+    now_ms: u32,
+    first: bool,
+}
+
+/// Returns true if a program uses the buffer memory of modules, ports or pulses, so that what is around the PLC
+/// remembers something.
+pub fn has_hardware(module: &Module) -> bool {
+    let mut uses_hal = module.has_ports() || module.sends_pulses() || module.takes_events();
+    for function in &module.functions {
+        statements(&function.body, &mut |stmt| {
+            uses_hal |= match stmt {
+                Stmt::Do(Action::Call(call)) => call.function.needs().hal,
+                Stmt::Do(action) => matches!(action, Action::Fetch(_) | Action::Send(_)),
+                _ => false,
+            };
+        });
+    }
+    uses_hal
 }
 
 impl<'m> Run<'m> {
     /// Before the first scan of a trace.
     pub fn new(module: &'m Module, trace: &Trace) -> Self {
-        let mut machine = Machine::new(module);
-        let mut hal = VirtualHal::new();
-        for (key, value) in start(module, trace) {
-            set(&mut machine, &mut hal, key, value);
-        }
-        Run {
-            machine,
-            hal,
+        let mut run = Run {
+            machine: Machine::new(module),
+            hal: VirtualHal::new(),
+            has_hardware: has_hardware(module),
             now_ms: 0,
             first: true,
+        };
+        run.begin_with(start(module, trace));
+        run
+    }
+
+    /// Gives latched memory its initial values.
+    pub(crate) fn begin_with(&mut self, start: impl Iterator<Item = (Key, i64)>) {
+        for (key, value) in start {
+            set(&mut self.machine, &mut self.hal, key, value);
         }
+    }
+
+    /// State now, without what is around a program that uses none of it.
+    pub(crate) fn save(&self) -> Moment {
+        let hal = self.has_hardware.then(|| Box::new(self.hal.clone()));
+        Moment {
+            machine: self.machine.save(),
+            hal,
+            now_ms: self.now_ms,
+            first: self.first,
+        }
+    }
+
+    /// Comes back to a state.
+    pub(crate) fn restore(&mut self, moment: &Moment) {
+        self.machine.restore(&moment.machine);
+        if let Some(hal) = &moment.hal {
+            self.hal.clone_from(hal);
+        }
+        (self.now_ms, self.first) = (moment.now_ms, moment.first);
     }
 
     /// Returns true if a scan begins before the program lets it: it asks for scans of constant length (M8039).

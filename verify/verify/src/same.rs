@@ -10,7 +10,7 @@ mod product;
 mod tests;
 
 use crate::aig::Lit;
-use crate::model::{Gap, Input, Key, Names, World};
+use crate::model::{Gap, Key, Names, World, gaps_of};
 use crate::proof::{Formula, Method, Posed, Proof};
 use crate::prove::{Answer, Options, Question, Verdict, search};
 use crate::replay::Run;
@@ -86,17 +86,11 @@ pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
             names: &names,
             options,
         };
-        let gaps = product.encoder().gaps.iter().enumerate();
-        let gaps = gaps.filter(|(n, _)| {
-            let mut inputs = posed.system.inputs.iter();
-            inputs.any(|(_, input)| *input == Input::Gap(*n))
-        });
+        let gaps = gaps_of(&posed.system, &product.encoder().gaps);
         let Answer { verdict, proof } = search(&question, &options.world, &posed, &limit);
         Output {
             number,
-            gaps: BTreeSet::from_iter(gaps.map(|(_, gap)| gap.clone()))
-                .into_iter()
-                .collect(),
+            gaps: gaps.into_iter().collect(),
             verdict,
             proof,
             time: begin.elapsed(),

@@ -121,7 +121,7 @@ impl<'s> Bounded<'s> {
                     }
                     Input::ScanTime(bit) => happens.scan_time |= u32::from(on) << bit,
                     Input::Restart => happens.restart = on,
-                    Input::Gap(_) => {}
+                    Input::Shown(..) | Input::Gap(_) => {}
                 }
             }
             happens.set.iter_mut().for_each(with_sign);

@@ -170,7 +170,7 @@ impl<'s> Search<'s> {
                 Input::Device(..) => *on ^= self.random.below(8) == 0,
                 Input::Time(digit, bit) => *on = part_of(ms, digit, bit) != 0,
                 Input::ScanTime(_) | Input::Restart => *on = false,
-                Input::Gap(_) => *on = self.random.below(2) == 0,
+                Input::Shown(..) | Input::Gap(_) => *on = self.random.below(2) == 0,
             }
         }
     }

@@ -16,11 +16,12 @@ mod table;
 mod tests;
 
 use crate::{Problem, root};
-use attack::{Outside, search};
+use attack::search;
 use draw::{Asked, FORMS, Pools, Question, question};
 use minimise::Refutation;
-use near::{Levels, levels};
-use run::{Goal, Run, Step, replay};
+use near::levels;
+use run::{Goal, replay};
+use rungc_golden::operands::BUFFER_WORDS;
 use rungc_golden::rng::Rng;
 use rungc_ir::Module;
 use rungc_sim::property::{Condition, Property};
@@ -29,6 +30,7 @@ use rungc_verify::model::{Encoder, Key, TimerPart, device_of};
 use rungc_verify::prove::{self, Options, Verdict, Why, decide};
 use rungc_verify::same::compare;
 use rungc_verify::search::Trace;
+use rungc_verify::steered::{Levels, Outside, Run, Step};
 use rungc_verify::system::System;
 use rungc_verify::vacuous::dead_end;
 use std::collections::BTreeSet;
@@ -229,7 +231,7 @@ fn outside(
         scan_ms: options.world.scan_ms,
         power: !options.world.fresh,
         stop: true,
-        buffer: false,
+        buffer: 0,
         events: modules.iter().any(|module| module.takes_events()),
     }
 }
@@ -255,7 +257,7 @@ impl Examination {
                 return;
             }
             let mut outside = outside(&[&module], &[&encoder], options, &self.question.values);
-            outside.buffer = has_buffer(&self.question);
+            outside.buffer = buffer_words(&self.question);
             let devices = asked
                 .property
                 .conditions()
@@ -524,12 +526,13 @@ impl Examination {
     }
 }
 
-/// Returns true if a program names the buffer memory of special modules.
-fn has_buffer(question: &Question) -> bool {
+/// Number of words of the buffer memory of special modules that a program reads.
+fn buffer_words(question: &Question) -> u32 {
     let mut words = question.written.text.split_whitespace();
-    words.any(|word| {
+    let is_read = words.any(|word| {
         word.contains("\\G") || matches!(word.trim_start_matches('D'), "FROM" | "FROMP")
-    })
+    });
+    if is_read { BUFFER_WORDS } else { 0 }
 }
 
 /// A run that the prover has found.

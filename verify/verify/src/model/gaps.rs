@@ -2,6 +2,8 @@
 
 use super::{Encoder, Input};
 use crate::bits::Bits;
+use crate::system::System;
+use std::collections::BTreeSet;
 
 /// Something that is not modelled exactly, so that any value is assumed to be possible.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -12,6 +14,24 @@ pub struct Gap {
     pub is_instruction: bool,
     /// Description, as the end of "not modelled: …".
     pub what: String,
+}
+
+/// Name of devices in which pulse outputs show what they do, which are any value in each scan.
+const SHOWN: &str = "special devices of pulse outputs";
+
+/// Everything that a question leaves open, of all that its logic does.
+pub(crate) fn gaps_of(system: &System, all: &[Gap]) -> BTreeSet<Gap> {
+    let inputs = system.inputs.iter();
+    let gaps = inputs.filter_map(|(_, input)| match *input {
+        Input::Gap(number) => all.get(number).cloned(),
+        Input::Shown(..) => Some(Gap {
+            step: None,
+            is_instruction: false,
+            what: SHOWN.to_string(),
+        }),
+        _ => None,
+    });
+    gaps.collect()
 }
 
 impl Encoder<'_> {

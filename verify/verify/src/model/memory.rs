@@ -335,9 +335,6 @@ impl Encoder<'_> {
                 });
             }
         }
-        if module.sends_pulses() {
-            self.external.extend(self.of_outputs());
-        }
         if module.has_ports() {
             self.external.extend(self.of_ports());
             let called = called_functions(module);
@@ -356,6 +353,11 @@ impl Encoder<'_> {
                     }
                 });
             }
+        }
+        if module.sends_pulses() {
+            let shown = self.of_outputs().into_iter();
+            self.shown = shown.filter(|key| !self.external.contains(key)).collect();
+            self.external.extend(&self.shown);
         }
     }
 

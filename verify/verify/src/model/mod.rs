@@ -20,6 +20,7 @@ mod tests;
 mod timing;
 
 pub use gaps::Gap;
+pub(crate) use gaps::gaps_of;
 pub use memory::device_of;
 pub(crate) use memory::is_settable;
 pub use probes::{Compared, Expiry, Probes, Rung, Written};
@@ -109,6 +110,8 @@ pub enum Key {
 pub enum Input {
     /// A bit of a device that something other than the program sets before the scan.
     Device(Key, usize),
+    /// A bit of a device that the PLC's pulse outputs write between two scans.
+    Shown(Key, usize),
     /// A bit of the time since the scan before: its hundreds, tens and ones of milliseconds.
     Time(Digit, usize),
     /// A bit of the time that the scan before took (D8010).
@@ -203,6 +206,8 @@ pub struct Encoder<'m> {
     clears: bool,
     /// Memory that may be written from outside the scan, between two scans.
     external: BTreeSet<Key>,
+    /// The part of it that pulse outputs write, and nothing else.
+    shown: BTreeSet<Key>,
     /// Flags that something outside the scan sets at any time.
     events: BTreeSet<u32>,
     /// Timers whose values something looks at or writes; `None`: all.
@@ -315,6 +320,7 @@ impl<'m> Encoder<'m> {
             written: BTreeSet::new(),
             clears: false,
             external: BTreeSet::new(),
+            shown: BTreeSet::new(),
             events: BTreeSet::new(),
             exact_timers: None,
             temps: vec![None; module.temps.len()].into(),
@@ -516,6 +522,11 @@ impl<'m> Encoder<'m> {
             && !self.is_named_free(key)
     }
 
+    /// Returns true if pulse outputs alone set a device before each scan, so that nothing else gives it a value.
+    fn is_shown(&self, key: Key) -> bool {
+        self.shown.contains(&key) && !self.is_named_free(key) && !self.is_unwritten(key)
+    }
+
     /// Returns true if something other than the program sets a device before each scan.
     pub fn is_free(&self, key: Key) -> bool {
         matches!(key, Key::Bit(DeviceClass::X, _))
@@ -575,7 +586,11 @@ impl<'m> Encoder<'m> {
             let init = self.initial(key);
             for (bit, (&now, &next)) in before.iter().zip(after).enumerate() {
                 if free(key) {
-                    system.inputs.push((now, Input::Device(key, bit)));
+                    let input = match self.is_shown(key) {
+                        true => Input::Shown(key, bit),
+                        false => Input::Device(key, bit),
+                    };
+                    system.inputs.push((now, input));
                     continue;
                 }
                 system.latches.push(Latch {

@@ -1,11 +1,11 @@
 //! Questions as other tools read them: the files are evaluated along runs of the interpreter.
 
-use super::attack::value_of;
-use super::run::{Goal, Rig, Run, State};
+use super::run::{Goal, Rig};
 use rungc_ir::Module;
 use rungc_sim::property::Condition;
 use rungc_verify::aig::Node;
 use rungc_verify::model::{Digit, Input, Key};
+use rungc_verify::steered::{Run, State, Subject, value_of};
 use rungc_verify::system::System;
 use rungc_verify::{aiger, btor2};
 use std::collections::BTreeMap;
@@ -188,7 +188,11 @@ fn states(system: &System) -> Vec<usize> {
 pub fn is_exact(system: &System) -> bool {
     system.inputs.iter().all(|(_, input)| match input {
         Input::Gap(_) | Input::Device(Key::Buffer(..), _) => false,
-        Input::Device(..) | Input::Time(..) | Input::ScanTime(_) | Input::Restart => true,
+        Input::Device(..)
+        | Input::Shown(..)
+        | Input::Time(..)
+        | Input::ScanTime(_)
+        | Input::Restart => true,
     })
 }
 
@@ -231,7 +235,7 @@ pub fn evaluate(
         let values: Vec<bool> = named
             .iter()
             .map(|input| match *input {
-                Some(Input::Device(key, bit)) => {
+                Some(Input::Device(key, bit) | Input::Shown(key, bit)) => {
                     let set = step.set.iter().find(|(of, _)| *of == key);
                     let value = set.map(|(_, value)| *value);
                     let value = value.unwrap_or_else(|| value_of(&rig.plants[0].machine, key));

@@ -1,12 +1,13 @@
 //! Smaller programs and runs, and programs that are changed a little.
 
 use super::draw::Written;
-use super::run::{Goal, Run, replay};
+use super::run::{Goal, replay};
 use super::{is_proved, violates};
 use rungc_golden::rng::Rng;
 use rungc_ir::Module;
 use rungc_sim::property::{Condition, Property};
 use rungc_verify::prove::Options;
+use rungc_verify::steered::{Run, Step};
 use std::time::{Duration, Instant};
 
 /// A proof with a run against it.
@@ -123,7 +124,7 @@ pub fn shorter(modules: &[&Module], goal: Goal, assumed: &[Condition], mut run: 
         });
     }
     for n in 0..run.steps.len() {
-        let step = |run: &mut Run, change: &dyn Fn(&mut super::Step)| {
+        let step = |run: &mut Run, change: &dyn Fn(&mut Step)| {
             if let Some(step) = run.steps.get_mut(n) {
                 change(step);
             }

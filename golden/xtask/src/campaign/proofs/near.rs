@@ -2,13 +2,10 @@
 //! on. An estimate that steers attacks; nothing depends on its being complete.
 
 use rungc_syntax::{DeviceClass, OperandKind, Program};
-use std::collections::BTreeMap;
+use rungc_verify::steered::Levels;
 
 /// A device.
 type Device = (DeviceClass, u32);
-
-/// Number of rungs from a device to the nearest of some others.
-pub type Levels = BTreeMap<Device, u32>;
 
 /// Devices of a rung.
 #[derive(Default)]

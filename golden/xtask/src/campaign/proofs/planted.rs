@@ -1,12 +1,13 @@
 //! Planted violations, to see what the attack finds: each is reached by a rare sequence that is known.
 
 use super::draw::Written;
-use super::run::{Goal, Run, Step, replay};
+use super::run::{Goal, replay};
 use rungc_golden::rng::Rng;
 use rungc_ir::Module;
 use rungc_sim::property::{Property, parse};
 use rungc_syntax::DeviceClass::X;
 use rungc_verify::model::Key;
+use rungc_verify::steered::{Run, Step};
 
 /// Kinds of planted violations.
 pub const KINDS: [&str; 6] = [

@@ -2,75 +2,11 @@
 
 use rungc_interp::{Machine, Saved, rt_class};
 use rungc_ir::Module;
-use rungc_ir::node::{Action, Stmt};
-use rungc_ir::walk::statements;
 use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
 use rungc_sim::property::{Condition, Monitor, Property, Watcher};
 use rungc_verify::model::{CounterPart, Key, TimerPart};
-use std::collections::BTreeMap;
-use std::fmt;
-
-/// Events of one scan.
-#[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct Step {
-    /// Power goes off and on first.
-    pub power: bool,
-    /// The PLC goes to STOP and back to RUN first.
-    pub stop: bool,
-    /// Events between the scan before and this one.
-    pub between: Vec<Between>,
-    /// Devices that something other than the program sets before the scan.
-    pub set: Vec<(Key, i64)>,
-    /// Milliseconds since the scan before.
-    pub ms: u32,
-    /// Duration of the scan before, in microseconds.
-    pub scan_us: u32,
-}
-
-/// An event between two scans.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Between {
-    /// Time advances to this many milliseconds after the scan before.
-    Tick(u32),
-    /// An input terminal turns on or off.
-    Edge(u32, bool),
-    /// Interrupt routines run.
-    Interrupts,
-}
-
-/// A run: what it begins with, and its scans.
-#[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct Run {
-    /// Latched memory with other values than at the first power-on.
-    pub start: Vec<(Key, i64)>,
-    /// The scans.
-    pub steps: Vec<Step>,
-}
-
-impl fmt::Display for Run {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "begins with {:?}", self.start)?;
-        let mut now = 0;
-        let mut known = BTreeMap::new();
-        for (n, step) in self.steps.iter().enumerate() {
-            now = if step.power { 0 } else { now + step.ms };
-            write!(f, "scan {} at {now} ms", n + 1)?;
-            if step.power {
-                write!(f, ", after power off and on")?;
-            }
-            if step.stop {
-                write!(f, ", after STOP and RUN")?;
-            }
-            if !step.between.is_empty() {
-                write!(f, ", after {:?}", step.between)?;
-            }
-            let mut set = step.set.clone();
-            set.retain(|(key, value)| known.insert(*key, *value).unwrap_or(0) != *value);
-            writeln!(f, ", scan time {} us: {set:?}", step.scan_us)?;
-        }
-        Ok(())
-    }
-}
+use rungc_verify::replay::has_hardware;
+use rungc_verify::steered::{Between, Run, State, Step, Subject, distance, value_of};
 
 /// Request about runs.
 #[derive(Clone, Copy, Debug)]
@@ -83,17 +19,6 @@ pub enum Goal<'c> {
     Lives(usize),
 }
 
-/// State of a run after a scan.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum State {
-    /// It continues.
-    Lives,
-    /// Nothing is claimed of what follows: an assumption is broken, or the PLC is not in RUN.
-    Over,
-    /// What is searched for has happened.
-    Happened,
-}
-
 /// A PLC with its surroundings.
 pub struct Plant<'m> {
     /// The PLC.
@@ -104,21 +29,6 @@ pub struct Plant<'m> {
     has_hardware: bool,
     now_ms: u32,
     first: bool,
-}
-
-/// Returns true if a program uses the buffer memory of modules, ports or pulses.
-fn has_hardware(module: &Module) -> bool {
-    let mut uses_hal = module.has_ports() || module.sends_pulses() || module.takes_events();
-    for function in &module.functions {
-        statements(&function.body, &mut |stmt| {
-            uses_hal |= match stmt {
-                Stmt::Do(Action::Call(call)) => call.function.needs().hal,
-                Stmt::Do(action) => matches!(action, Action::Fetch(_) | Action::Send(_)),
-                _ => false,
-            };
-        });
-    }
-    uses_hal
 }
 
 /// Gives a piece of memory its value.
@@ -249,15 +159,17 @@ impl<'m, 'c> Rig<'m, 'c> {
         self.watcher = watcher(self.goal);
         self.scans = 0;
     }
+}
 
-    /// Begins anew, with these values in latched memory.
-    pub fn begin(&mut self, start: &[(Key, i64)]) {
+impl<'c> Subject for Rig<'_, 'c> {
+    type Moment = Moment<'c>;
+
+    fn begin(&mut self, start: &[(Key, i64)]) {
         self.plants.iter_mut().for_each(|plant| plant.begin(start));
         self.forget();
     }
 
-    /// The most milliseconds that a program asks for from this scan to the next.
-    pub fn constant_scan_ms(&self) -> u32 {
+    fn constant_scan_ms(&self) -> u32 {
         let asked = self
             .plants
             .iter()
@@ -265,8 +177,7 @@ impl<'m, 'c> Rig<'m, 'c> {
         asked.max().unwrap_or(0).into()
     }
 
-    /// Executes a scan of each.
-    pub fn step(&mut self, step: &Step) -> State {
+    fn step(&mut self, step: &Step) -> State {
         if step.power || step.stop {
             self.forget();
         }
@@ -307,8 +218,7 @@ impl<'m, 'c> Rig<'m, 'c> {
         }
     }
 
-    /// Its state now.
-    pub fn save(&self) -> Moment<'c> {
+    fn save(&self) -> Self::Moment {
         let plants = self.plants.iter();
         Moment {
             plants: plants
@@ -323,8 +233,7 @@ impl<'m, 'c> Rig<'m, 'c> {
         }
     }
 
-    /// Comes back to a state.
-    pub fn restore(&mut self, moment: &Moment<'c>) {
+    fn restore(&mut self, moment: &Self::Moment) {
         for (plant, (saved, hal, now_ms, first)) in self.plants.iter_mut().zip(&moment.plants) {
             plant.machine.restore(saved);
             if let Some(hal) = hal {
@@ -335,6 +244,21 @@ impl<'m, 'c> Rig<'m, 'c> {
         self.monitors.clone_from(&moment.monitors);
         self.watcher = moment.watcher.clone();
         self.scans = moment.scans;
+    }
+
+    fn programs(&self) -> usize {
+        self.plants.len()
+    }
+
+    fn value(&self, program: usize, key: Key) -> i64 {
+        value_of(&self.plants[program].machine, key)
+    }
+
+    fn distance(&self) -> f64 {
+        match (self.goal, self.plants.first()) {
+            (Goal::Event(property), Some(plant)) => distance(property, &plant.machine),
+            _ => 0.0,
+        }
     }
 }
 

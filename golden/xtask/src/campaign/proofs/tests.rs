@@ -1,6 +1,6 @@
 use super::attack::search;
 use super::draw::Written;
-use super::run::{Goal, Run, replay};
+use super::run::{Goal, replay};
 use super::table::{Counts, Results};
 use super::{Extent, QUESTION, all, files, judge, minimise, outside, planted};
 use rungc_golden::rng::Rng;
@@ -8,6 +8,7 @@ use rungc_models::ModelId;
 use rungc_sim::property::{Property, parse};
 use rungc_verify::model::Encoder;
 use rungc_verify::prove::{Options, system};
+use rungc_verify::steered::Run;
 
 fn written(text: &str) -> Written {
     Written {
@@ -94,7 +95,7 @@ fn files_that_say_something_else_are_noticed() {
     let text = "LD X000\nOUT T0 K3\nLD T0\nOUT Y000\nLD X001\nOUT C0 K2\nLD C0\nOUT Y001\nEND\n";
     let options = options();
     let module = written(text).module(&options, &[&property]).unwrap();
-    let (_, mut system) = system(&module, &property, &options);
+    let (_, system) = system(&module, &property, &options);
     let run = found(text, &property).unwrap();
     let goal = Goal::Event(&property);
     let scans = run.steps.len() as u64;
@@ -103,8 +104,12 @@ fn files_that_say_something_else_are_noticed() {
         files::evaluate(&system, &module, goal, &[], &run),
         Ok(scans)
     );
-    system.latches[0].next = !system.latches[0].next;
-    assert!(files::evaluate(&system, &module, goal, &[], &run).is_err());
+    let is_noticed = |number: usize| {
+        let mut other = system.clone();
+        other.latches[number].next = !other.latches[number].next;
+        files::evaluate(&other, &module, goal, &[], &run).is_err()
+    };
+    assert!((0..system.latches.len()).any(is_noticed));
 }
 
 #[test]
