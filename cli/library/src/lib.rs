@@ -45,6 +45,7 @@ mod program;
 mod project;
 pub mod settings;
 pub mod unproven;
+pub mod why;
 
 pub use diagnostic::{Diagnostic, Levels, Proposal, Related, Replacement};
 pub use error::Error;
@@ -55,6 +56,7 @@ pub use program::Program;
 pub use project::{Checked, Options, Project};
 pub use rungc_emit::OutFile;
 pub use rungc_syntax::Severity;
+pub use rungc_why::Why;
 
 /// A code of diagnostics, `W0203`, or that of a name, `double-coil`, as [`Options`] takes it; `None` if there is none.
 pub fn code(name: &str) -> Option<&'static str> {

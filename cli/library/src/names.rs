@@ -116,7 +116,7 @@ impl Names {
     ///
     /// # Errors
     /// Description of the mistake.
-    fn device(&self, text: &str) -> Result<Device, String> {
+    pub fn device(&self, text: &str) -> Result<Device, String> {
         let device = |text: &str| {
             let upper = text.trim().to_uppercase();
             device::device(&upper)

@@ -1,8 +1,8 @@
 //! A PLC that runs.
 
-use crate::{Error, Names};
+use crate::Error;
+use crate::why::Source;
 use rungc_interp::OperationError;
-use rungc_ir::Module;
 use rungc_rt::{Class, Plc as _};
 use rungc_sim::record::Reading;
 use rungc_sim::session::{self, Session};
@@ -74,8 +74,9 @@ pub struct Snapshot {
 /// comment of the program. Inputs keep the state that they are set to.
 pub struct Plc<'p> {
     session: Session<'p>,
-    names: &'p Names,
     /// The program.
+    source: Source<'p>,
+    /// Its number.
     id: u64,
     /// Time at which the next scan begins.
     next_ms: u64,
@@ -83,14 +84,10 @@ pub struct Plc<'p> {
 
 impl<'p> Plc<'p> {
     /// A PLC at power-on, with a program and its number.
-    pub(crate) fn new(
-        (module, id): (&'p Module, u64),
-        modules: &[FittedModule],
-        names: &'p Names,
-    ) -> Self {
+    pub(crate) fn new(source: Source<'p>, id: u64, modules: &[FittedModule]) -> Self {
         Plc {
-            session: Session::new(module, session::hardware(modules)),
-            names,
+            session: Session::new(source.module, session::hardware(modules)),
+            source,
             id,
             next_ms: 0,
         }
@@ -262,8 +259,13 @@ impl<'p> Plc<'p> {
         &mut self.session
     }
 
+    /// Its program, and the session that runs it.
+    pub(crate) fn explained(&mut self) -> (&Source<'p>, &mut Session<'p>) {
+        (&self.source, &mut self.session)
+    }
+
     fn target(&self, name: &str) -> Result<Target, Error> {
-        self.names.target(name).map_err(Error::Device)
+        self.source.names.target(name).map_err(Error::Device)
     }
 
     /// A device, and a value that it keeps until the program reads it.

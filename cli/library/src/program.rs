@@ -1,9 +1,11 @@
 //! A compiled program.
 
+use crate::why::Source;
 use crate::{Names, Plc, Project};
 use rungc_emit::OutFile;
 use rungc_ir::Module;
-use rungc_lower::compile::{CompileOptions, compile};
+use rungc_lower::compile::{CompileOptions, Compiled as Result, compile};
+use rungc_lower::marks::Marks;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
@@ -16,8 +18,8 @@ struct Compiled {
     project: Project,
     /// For output: without devices that the program does not use.
     module: Module,
-    /// For runs: with all devices of the model. It is made when it is first needed.
-    observed: OnceLock<Module>,
+    /// For runs: with all devices of the model, and the sources of its parts. It is made when it is first needed.
+    observed: OnceLock<(Module, Marks)>,
     names: Names,
     /// Distinguishes the program from others of this process.
     id: u64,
@@ -29,7 +31,7 @@ impl Program {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         Some(Program(Arc::new(Compiled {
             project: project.clone(),
-            module: module(project, false)?,
+            module: compiled(project, false).module?,
             observed: OnceLock::new(),
             names: project.names(),
             id: NEXT.fetch_add(1, Ordering::Relaxed),
@@ -59,26 +61,44 @@ impl Program {
     /// Powers a PLC with this program on, at virtual time 0, with the special modules of the project. Its switch is at
     /// RUN; the first scan comes with [`Plc::scan`] or [`Plc::run_for`].
     pub fn start(&self) -> Plc<'_> {
+        let Compiled { project, id, .. } = &*self.0;
+        let parameters = project.source().parameters.as_ref();
+        let modules = parameters.map_or(&[][..], |parameters| &parameters.modules);
+        Plc::new(self.source(), *id, modules)
+    }
+
+    /// The program as it was read, and as it runs.
+    pub(crate) fn source(&self) -> Source<'_> {
         let Compiled {
             project,
             module: usual,
             observed,
             names,
-            id,
+            ..
         } = &*self.0;
-        let made = || module(project, true).unwrap_or_else(|| usual.clone());
-        let parameters = project.source().parameters.as_ref();
-        let modules = parameters.map_or(&[][..], |parameters| &parameters.modules);
-        Plc::new((observed.get_or_init(made), *id), modules, names)
+        let made = || {
+            let Result { module, marks, .. } = compiled(project, true);
+            module
+                .zip(marks)
+                .unwrap_or_else(|| (usual.clone(), Marks::default()))
+        };
+        let (module, marks) = observed.get_or_init(made);
+        Source {
+            program: project.source(),
+            module,
+            marks,
+            names,
+        }
     }
 }
 
-/// Compiles a program.
-fn module(project: &Project, observe_all: bool) -> Option<Module> {
+/// Compiles a program: for output, or for runs.
+fn compiled(project: &Project, for_runs: bool) -> Result {
     let options = CompileOptions {
         optimise: true,
-        observe_all,
+        observe_all: for_runs,
+        marks: for_runs,
         ..project.options()
     };
-    compile(project.source(), &options).module
+    compile(project.source(), &options)
 }

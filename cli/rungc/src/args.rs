@@ -1,6 +1,7 @@
 //! Arguments of the command line.
 
 mod boards;
+mod book;
 mod diff;
 mod effects;
 mod emit;
@@ -15,8 +16,10 @@ mod serve;
 mod test;
 mod values;
 mod verify;
+mod why;
 
 pub use boards::BoardsArgs;
+pub use book::{BookArgs, ExplainArgs, ManArgs};
 pub use diff::{DiffArgs, DiffFormat};
 pub use effects::{idle, long_option};
 pub use emit::{Backend, Emit};
@@ -29,6 +32,7 @@ pub use properties::Properties;
 pub use serve::{PageArgs, ServeArgs, ServeSettings};
 pub use test::{CoverageFormat, TestArgs, TestFormat};
 pub use verify::VerifyArgs;
+pub use why::WhyArgs;
 
 use crate::output::OutputPath;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -123,6 +127,11 @@ pub enum Command {
     View(ViewArgs),
     /// List the instructions that read, write, set and reset each device.
     Xref(XrefArgs),
+    /// Explain why a device is on or off: which contacts, timers and states keep it so.
+    ///
+    /// Without a run, lists what can switch the device. With --set, --for or --machine, the program runs to that moment,
+    /// and the answer says what keeps the device as it is, since when, and what would change it.
+    Why(WhyArgs),
     /// Count steps, instructions and devices, and estimate the scan time of the real PLC.
     Stats(StatsArgs),
     /// Format instruction lists, preserving comments.
@@ -487,34 +496,6 @@ pub struct LearnArgs {
     /// PLC model. Default: that of the settings, else the CPU type that the project names.
     #[arg(long, value_parser = model, value_name = "MODEL")]
     pub model: Option<ModelId>,
-}
-
-/// Arguments of `book`.
-#[derive(Args, Debug)]
-pub struct BookArgs {
-    /// Page to print, as the list names it: `serve`, `test-files`. Default: list all pages.
-    #[arg(value_name = "PAGE")]
-    pub page: Option<String>,
-}
-
-/// Arguments of `man`.
-#[derive(Args, Debug)]
-pub struct ManArgs {
-    /// Command whose page is printed. Default: the page of rungc itself.
-    #[arg(value_name = "COMMAND")]
-    pub command: Option<String>,
-}
-
-/// Arguments of `explain`.
-#[derive(Args, Debug)]
-pub struct ExplainArgs {
-    /// A diagnostic code (E0106), an error code of the PLC (6706), an instruction (ADD, LD>=), a special device
-    /// (M8013), a model (fx3u) or a variant of one (h2u-mtq), a safety function (two-hand; `functions` lists them), or
-    /// a page that `rungc book` lists.
-    pub topic: String,
-    /// PLC model whose instructions, special devices and error codes are shown. Default: all.
-    #[arg(long, value_parser = plc, value_name = "MODEL")]
-    pub model: Option<Plc>,
 }
 
 /// Use of colours.

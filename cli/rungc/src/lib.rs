@@ -55,6 +55,7 @@ pub fn main() -> ExitCode {
         Command::Explore(args) => commands::explore::run(args, cx),
         Command::View(args) => commands::view::run(args, cx),
         Command::Xref(args) => commands::xref::run(args, cx),
+        Command::Why(args) => commands::why::run(args, cx),
         Command::Stats(args) => commands::stats::run(args, cx),
         Command::Fmt(args) => commands::fmt::run(args, cx),
         Command::Diff(args) => commands::diff::run(args, cx),
@@ -100,6 +101,7 @@ fn context(cli: &Cli) -> Context {
             Command::Run(_)
             | Command::Serve(_)
             | Command::Fleet(_)
+            | Command::Why(_)
             | Command::Stats(_)
             | Command::Diff(_)
             | Command::Verify(_) => true,

@@ -5,7 +5,7 @@
 
 use crate::devices::Devices;
 use crate::errors::OperationError;
-use crate::eval::Value;
+use crate::eval::{Value, int};
 use crate::logic::Logic;
 use rungc_ir::node::{CellId, EdgeId, ExprId, FlagId, FunctionKind, Stmt, TableId, TempId};
 use rungc_ir::{Module, ResetState};
@@ -185,9 +185,24 @@ impl<'m> Machine<'m> {
         self.observer = Some(observer);
     }
 
+    /// Nobody looks on any longer; returns the observer.
+    pub fn take_observer(&mut self) -> Option<Box<dyn Observer>> {
+        self.observer.take()
+    }
+
+    /// Returns true if an edge memory holds a bit that was on.
+    pub fn edge_memory(&self, memory: EdgeId) -> bool {
+        self.edges.get(memory).copied().unwrap_or(false)
+    }
+
     /// Returns true if a bit expression without `And`, `Or` and `Not` is on now.
     pub fn is_on(&self, id: ExprId) -> bool {
         self.eval(id) == Value::Bit(true)
+    }
+
+    /// Value of an integer expression now.
+    pub fn integer(&self, id: ExprId) -> i32 {
+        int(self.eval(id))
     }
 
     /// The module it runs.

@@ -29,6 +29,7 @@ pub mod test;
 mod together;
 pub mod verify;
 pub mod view;
+pub mod why;
 pub mod xref;
 
 use crate::args::Format;

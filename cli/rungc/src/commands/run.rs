@@ -41,6 +41,8 @@ use rungc_lower::compile::{CompileOptions, compile};
 use rungc_sim::Target;
 use rungc_sim::plant::{self, Axis, Description, Plant};
 use rungc_syntax::{DeviceClass, Program, codes, inputs};
+pub(super) use simulate::missing;
+use std::path::Path;
 pub use watch::STANDARD_ERROR;
 
 /// Number of devices shown by default.
@@ -223,7 +225,7 @@ impl Requested {
                 .as_deref()
                 .map(|name| target("--over", name))
                 .transpose()?,
-            machine: machine(args, about, &settings)?,
+            machine: machine(args.machine.as_deref(), about, &settings)?,
             settings,
         })
     }
@@ -285,12 +287,12 @@ fn page(
 }
 
 /// The simulated machine, which drives none of the inputs that are set.
-fn machine(
-    args: &RunArgs,
+pub(super) fn machine(
+    path: Option<&Path>,
     (subject, cx): (&Subject, Context),
     settings: &[Setting],
 ) -> std::result::Result<Option<Description>, Failure> {
-    let described = args.machine.as_ref().map(|path| plant::load(path));
+    let described = path.map(plant::load);
     let described = described
         .transpose()
         .map_err(|error| subject::refuse(error.into(), &subject.reporting, cx))?;

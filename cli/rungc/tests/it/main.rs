@@ -69,3 +69,4 @@ mod usage;
 mod vendor;
 mod verify;
 mod view;
+mod why;

@@ -564,7 +564,8 @@ fn column(target: Target) -> Column {
     }
 }
 
-fn missing(target: Target, module: &Module) -> Failure {
+/// The error about a device that the model or its hardware does not have.
+pub fn missing(target: Target, module: &Module) -> Failure {
     let model = module.model.title;
     if let Target::Channel(channel) = target {
         return Failure::Because(format!(

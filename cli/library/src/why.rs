@@ -1,0 +1,72 @@
+//! Reasons for a device to be on or off.
+
+use crate::{Error, Names, Plc, Program};
+use rungc_ir::Module;
+use rungc_lower::marks::Marks;
+use rungc_syntax::Device;
+use rungc_why::{Explainer, Why};
+
+/// The device of a name, if the model has it and the program names it.
+///
+/// # Errors
+/// A name that no device has, a device that the model does not have, or that no instruction names.
+pub fn device(
+    name: &str,
+    names: &Names,
+    module: &Module,
+    explainer: &Explainer,
+) -> Result<Device, String> {
+    let device = names.device(name)?;
+    if !module.model.has(device.class, device.number) {
+        let model = module.model.title;
+        return Err(format!("`{device}` does not exist on {model}"));
+    }
+    if !explainer.has(device) {
+        return Err(format!("no instruction names `{device}`"));
+    }
+    Ok(device)
+}
+
+/// A program as it was read, and as it runs.
+pub(crate) struct Source<'p> {
+    pub(crate) program: &'p rungc_syntax::Program,
+    pub(crate) module: &'p Module,
+    pub(crate) marks: &'p Marks,
+    pub(crate) names: &'p Names,
+}
+
+impl<'p> Source<'p> {
+    fn explain<T>(
+        &self,
+        name: &str,
+        answer: impl FnOnce(&Explainer<'p>, Device) -> T,
+    ) -> Result<T, Error> {
+        let explainer = Explainer::new(self.program, self.module, self.marks);
+        let device = device(name, self.names, self.module, &explainer);
+        Ok(answer(&explainer, device.map_err(Error::Device)?))
+    }
+}
+
+impl Program {
+    /// Finds out what can switch a device: the instructions that write it, with their conditions.
+    ///
+    /// # Errors
+    /// A name that no device has, a device that the model does not have, or that no instruction names.
+    pub fn why(&self, name: &str) -> Result<Why, Error> {
+        let answer = |explainer: &Explainer, device| explainer.of_program(device);
+        self.source().explain(name, answer)
+    }
+}
+
+impl Plc<'_> {
+    /// Finds out why a device is on or off: what the next scan makes of it, with all else as it is now.
+    ///
+    /// # Errors
+    /// A name that no device has, a device that the model does not have, or that no instruction names.
+    pub fn why(&mut self, name: &str) -> Result<Why, Error> {
+        let (source, session) = self.explained();
+        source.explain(name, |explainer, device| {
+            explainer.at_moment(session, None, device, None)
+        })
+    }
+}

@@ -1,0 +1,57 @@
+//! Arguments of `why`.
+
+use super::Input;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Arguments of `why`.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Examples:
+  rungc why press.il Y000                               what can switch Y000
+  rungc why press.il Y000 --set X000=1,X001=1 --for 2s  why it is on or off after 2 s
+  rungc why press.il \"press valve\" --for 1s             a device by its comment
+  rungc why press.il Y000 --for 1s --format json        the answer as an object")]
+pub struct WhyArgs {
+    #[command(flatten)]
+    pub input: Input,
+    /// Device to explain: `Y000`, `T0`, `D10`, or a comment.
+    #[arg(value_name = "DEVICE")]
+    pub device: Option<String>,
+    /// Explain the moment after this virtual time: `200ms`, `5s`, `2min`; a bare number is milliseconds. Default: 1s if
+    /// a device is set or there is a machine; else the program alone is explained.
+    #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
+    pub duration: Option<u64>,
+    /// Scan time, in virtual time; a longer constant scan time of the program takes precedence. Default: the program's
+    /// constant scan time, or 10ms.
+    #[arg(long, value_parser = crate::time::parse, value_name = "TIME")]
+    pub scan: Option<u64>,
+    /// Set a device at a time, as for `rungc run`: `X000=1@200ms`; may be repeated or separated by commas.
+    #[arg(long, value_name = "DEVICE=VALUE[@TIME]")]
+    pub set: Vec<String>,
+    /// Simulated machine, whose axes, cylinders and delays follow the outputs and drive inputs (`rungc book machines`).
+    #[arg(long, value_name = "FILE")]
+    pub machine: Option<PathBuf>,
+}
+
+impl WhyArgs {
+    /// The program and the device. With one argument it is the device, of the program that rungc.toml names.
+    pub fn subject(&self) -> Option<(Input, &str)> {
+        let mut input = self.input.clone();
+        match &self.device {
+            Some(device) => Some((input, device)),
+            None => {
+                input.file = None;
+                let device = self.input.file.as_ref()?.to_str()?;
+                Some((input, device))
+            }
+        }
+    }
+
+    /// Time of the moment in milliseconds; `None` if the program alone is explained.
+    pub fn end_ms(&self) -> Option<u64> {
+        const USUAL_MS: u64 = 1000;
+        let runs = !self.set.is_empty() || self.machine.is_some() || self.scan.is_some();
+        self.duration.or(runs.then_some(USUAL_MS))
+    }
+}

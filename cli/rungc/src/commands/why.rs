@@ -1,0 +1,146 @@
+//! `rungc why`.
+
+use super::run::machine;
+use super::setting::{self, Setting};
+use super::subject::{self, Subject};
+use super::{Context, Failure, Outcome, Result, conclude, findings, print_text, read};
+use crate::args::{Format, WhyArgs};
+use crate::report::{Reporter, to_json};
+use rungc::{Names, Why};
+use rungc_frontend::Read;
+use rungc_ir::Module;
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_sim::Session;
+use rungc_sim::plant::Description;
+use rungc_sim::record::Reading;
+use rungc_sim::session::hardware;
+use rungc_syntax::Device;
+use rungc_why::{Explainer, History};
+
+/// Explains why a device is on or off.
+pub fn run(args: &WhyArgs, cx: Context) -> Result {
+    let Some((input, name)) = args.subject() else {
+        let message = "name the device: `rungc why PROGRAM DEVICE`";
+        return Err(Failure::Because(message.to_string()));
+    };
+    if args.scan == Some(0) {
+        let message = "--scan: a scan takes at least 1 ms";
+        return Err(Failure::Because(message.to_string()));
+    }
+    let subject = subject::one(&input, cx)?;
+    let mut reporter = Reporter::new(&subject.reporting, cx, false);
+    let outcome = explain(args, name, &subject, (&mut reporter, cx));
+    reporter.finish()?;
+    outcome
+}
+
+fn explain(
+    args: &WhyArgs,
+    name: &str,
+    subject: &Subject,
+    (reporter, cx): (&mut Reporter, Context),
+) -> Result {
+    let read = read(subject, reporter)?;
+    let names = Names::of(&read.program);
+    let settings = setting::settings(&args.set, &names)?;
+    let machine = machine(args.machine.as_deref(), (subject, cx), &settings)?;
+    let options = CompileOptions {
+        observe_all: true,
+        marks: true,
+        ..subject.options()
+    };
+    let mut compiled = compile(&read.program, &options);
+    let found = findings(subject, &read, &compiled);
+    let parts = compiled.module.take().zip(compiled.marks.take());
+    let (module, marks) = match parts {
+        Some(parts) if !found.failed() => parts,
+        _ => return conclude(&found, reporter, cx, String::new),
+    };
+    setting::check(&settings, module.model)?;
+    setting::report_unused(&settings, &read.program, subject.options());
+    if let Some(machine) = &machine {
+        let checked = machine.check(module.model);
+        checked.map_err(|error| subject::refuse(error.into(), &subject.reporting, cx))?;
+    }
+    let explainer = Explainer::new(&read.program, &module, &marks);
+    let device = rungc::why::device(name, &names, &module, &explainer);
+    let device = device.map_err(Failure::Because)?;
+    let run = Run {
+        args,
+        read: &read,
+        module: &module,
+        settings: &settings,
+        machine: machine.as_ref(),
+    };
+    let why = match args.end_ms() {
+        Some(end_ms) => run.explain(&explainer, device, end_ms)?,
+        None => explainer.of_program(device),
+    };
+    print(&why, subject.reporting.format)?;
+    Ok(Outcome::Success)
+}
+
+fn print(why: &Why, format: Format) -> std::result::Result<(), Failure> {
+    let text = match format {
+        Format::Json => to_json(why)?,
+        _ => why.text(),
+    };
+    Ok(print_text(&text)?)
+}
+
+/// The run that leads to the moment.
+struct Run<'a> {
+    args: &'a WhyArgs,
+    read: &'a Read,
+    module: &'a Module,
+    settings: &'a [Setting],
+    machine: Option<&'a Description>,
+}
+
+impl Run<'_> {
+    fn explain(
+        &self,
+        explainer: &Explainer,
+        device: Device,
+        end_ms: u64,
+    ) -> std::result::Result<Why, Failure> {
+        let parameters = self.read.program.parameters.as_ref();
+        let modules = parameters.map_or(&[][..], |parameters| &parameters.modules);
+        let mut session = Session::new(self.module, hardware(modules));
+        for setting in self.settings {
+            let seen = session.seen();
+            Reading::of(seen, setting.target)
+                .ok_or_else(|| super::run::missing(setting.target, self.module))?;
+        }
+        let mut pending = self.settings;
+        set(&mut session, &mut pending);
+        if let Some(machine) = self.machine {
+            session.connect(machine.plant())?;
+        }
+        let mut history = History::new(session.machine(), device);
+        while session.now_ms() < end_ms && !session.machine().watchdog_tripped() {
+            let began_ms = session.now_ms();
+            let scan_ms = session.scan_ms(self.args.scan);
+            session.scan(scan_ms);
+            history.scanned(session.machine(), began_ms);
+            let scan_ms = session.scan_ms(self.args.scan);
+            for _ in began_ms..(began_ms + scan_ms).min(end_ms) {
+                session.pass(1);
+                set(&mut session, &mut pending);
+            }
+        }
+        Ok(explainer.at_moment(&mut session, self.args.scan, device, Some(&history)))
+    }
+}
+
+/// Makes the settings whose time has come.
+fn set(session: &mut Session, pending: &mut &[Setting]) {
+    while let Some((setting, rest)) = pending.split_first()
+        && setting.at_ms <= session.now_ms()
+    {
+        // It exists: that was checked before the run.
+        let _ = session.set(setting.target, setting.value);
+        *pending = rest;
+    }
+    session.take_interrupts();
+}

@@ -1,0 +1,56 @@
+//! Reasons for a device to be on or off.
+
+use crate::common::{folder, rungc, shown, text};
+
+const STATION: &str = "\
+;! X000 = start\n;! X001 = stop\n;! X002 = guard closed\n;! Y000 = motor\n;! M0 = automatic\n;! M1 = automatic\n\
+LD X000\nOR M0\nANI X001\nAND X002\nOUT M0\nLD M0\nOUT T0 K20\nLD T0\nOUT Y000\nLD X003\nSET M500\nEND\n";
+
+#[test]
+fn an_answer_is_text_or_an_object() {
+    let folder = folder(&[("station.il", STATION.as_bytes())]);
+    let why = |args: &[&str]| shown(folder.path(), &[&["why", "station.il"], args].concat());
+    insta::assert_snapshot!("why_program", why(&["Y000"]));
+    let started = ["motor", "--set", "X000=1,X002=1", "--for", "1s"];
+    insta::assert_snapshot!("why_moment", why(&started));
+    insta::assert_snapshot!("why_latched", why(&["M500"]));
+    let json = why(&[&started[..], &["--format", "json"]].concat());
+    insta::assert_snapshot!("why_json", json);
+}
+
+#[test]
+fn a_program_may_come_from_the_settings() {
+    let settings = "[project]\nprogram = \"station.il\"\n";
+    let files: [(&str, &[u8]); 2] = [
+        ("station.il", STATION.as_bytes()),
+        ("rungc.toml", settings.as_bytes()),
+    ];
+    let folder = folder(&files);
+    let by_settings = shown(folder.path(), &["why", "motor"]);
+    assert_eq!(
+        by_settings,
+        shown(folder.path(), &["why", "station.il", "Y0"])
+    );
+}
+
+#[test]
+fn devices_without_an_answer_are_errors() {
+    let folder = folder(&[("station.il", STATION.as_bytes())]);
+    for (args, expected) in [
+        (&["Y001"][..], "no instruction names `Y001`"),
+        (&["motr"], "did you mean `motor`?"),
+        (
+            &["automatic"],
+            "is the comment of several devices, such as M0 and M1",
+        ),
+        (&["Y777"], "no instruction names `Y777`"),
+        (&["M99999"], "does not exist on FX3U"),
+        (&["Y000", "--set", "X008=1"], "octal"),
+    ] {
+        let out = rungc(folder.path(), &[&["why", "station.il"], args].concat());
+        let message = text(&out.stderr);
+        assert_eq!(out.status.code(), Some(2), "{message}");
+        assert!(message.contains(expected), "{args:?}: {message}");
+        assert!(out.stdout.is_empty(), "{args:?}");
+    }
+}

@@ -1,0 +1,326 @@
+//! From a device to the answer.
+
+use crate::answer::{Cause, Link, Moment, Why, Writer};
+use crate::causes::{Now, Search};
+use crate::graph::{Id, Node};
+use crate::history::{History, contacts};
+use crate::sites::Sites;
+use crate::trace::{Fixed, Recorder, Scan, Trace};
+use crate::words::Words;
+use rungc_analysis::resolve::resolve;
+use rungc_analysis::xref::{CrossReference, Reach, Use, UseKind};
+use rungc_interp::{Machine, rt_class};
+use rungc_ir::Module;
+use rungc_ir::node::FunctionKind;
+use rungc_ladder::build;
+use rungc_lower::marks::Marks;
+use rungc_models::runs::is_special;
+use rungc_rt::Plc as _;
+use rungc_sim::{Session, Target};
+use rungc_syntax::{Device, DeviceClass, Program};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Explains devices of a program.
+pub struct Explainer<'p> {
+    pub(crate) words: Words<'p>,
+    module: &'p Module,
+    marks: Arc<Marks>,
+    sites: Arc<Sites>,
+    uses: Vec<Use>,
+}
+
+impl<'p> Explainer<'p> {
+    /// Of a program, compiled with marks and not optimised, with all devices that are asked for.
+    pub fn new(program: &'p Program, module: &'p Module, marks: &Marks) -> Self {
+        let (resolved, _) = resolve(program, module.model);
+        let uses = CrossReference::new(&resolved).uses;
+        let ladder = build::ladder(&resolved);
+        Explainer {
+            marks: Arc::new(marks.clone()),
+            sites: Arc::new(Sites::of(module, marks, &resolved)),
+            words: Words { resolved, ladder },
+            module,
+            uses,
+        }
+    }
+
+    /// Returns true if an instruction names a device, or an area that it is in.
+    pub fn has(&self, device: Device) -> bool {
+        let mut uses = self.uses.iter();
+        uses.any(|one| {
+            let numbers = one.first.number..one.end();
+            one.first.class == device.class && numbers.contains(&device.number)
+        })
+    }
+
+    /// Lists what can switch a device, by the program alone.
+    pub fn of_program(&self, device: Device) -> Why {
+        let machine = Machine::new(self.module);
+        let fixed = self.fixed(device);
+        let mut trace = Trace::default();
+        let mut scan = Scan::new(&fixed, &mut trace, &machine);
+        scan.program();
+        let writers = self.writers(device, &trace, false);
+        Why {
+            device: device.to_string(),
+            comment: self.words.comment(device),
+            moment: None,
+            notes: self.notes(device, &writers),
+            writers: writers.into_iter().map(|(_, writer)| writer).collect(),
+            causes: Vec::new(),
+            because: Vec::new(),
+        }
+    }
+
+    /// Explains a device at a moment of a run: what the next scan makes of it, with all else as it is. The session is as
+    /// before afterwards.
+    pub fn at_moment(
+        &self,
+        session: &mut Session<'_>,
+        scan_ms: Option<u64>,
+        device: Device,
+        history: Option<&History>,
+    ) -> Why {
+        let trace = self.look(session, scan_ms, device);
+        let now = Now {
+            session,
+            trace,
+            history,
+        };
+        let writers = self.writers(device, &now.trace, true);
+        let (causes, because) = self.causes(device, &now, &writers);
+        Why {
+            device: device.to_string(),
+            comment: self.words.comment(device),
+            moment: Some(self.moment(device, &now)),
+            notes: self.notes(device, &writers),
+            writers: writers.into_iter().map(|(_, writer)| writer).collect(),
+            causes,
+            because,
+        }
+    }
+
+    pub(crate) fn module(&self) -> &'p Module {
+        self.module
+    }
+
+    fn fixed(&self, device: Device) -> Arc<Fixed> {
+        let named = contacts(self.module).chain(self.sites.masters());
+        Arc::new(Fixed {
+            marks: Arc::clone(&self.marks),
+            sites: Arc::clone(&self.sites),
+            named: named.chain([device]).collect(),
+        })
+    }
+
+    /// Looks on at the next scan, which does not take place.
+    pub(crate) fn look(
+        &self,
+        session: &mut Session<'_>,
+        scan_ms: Option<u64>,
+        device: Device,
+    ) -> Trace {
+        let trace = Arc::new(Mutex::new(Trace::default()));
+        let fixed = self.fixed(device);
+        let recorder = Recorder {
+            fixed: Arc::clone(&fixed),
+            trace: Arc::clone(&trace),
+        };
+        let moment = session.save();
+        let scan_ms = session.scan_ms(scan_ms);
+        let other = session.machine_mut().take_observer();
+        session.machine_mut().observe(Box::new(recorder));
+        session.scan(scan_ms);
+        session.machine_mut().take_observer();
+        let mut trace = trace.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut trace = std::mem::take(&mut *trace);
+        Scan::new(&fixed, &mut trace, session.machine()).settle();
+        session.restore(&moment);
+        if let Some(other) = other {
+            session.machine_mut().observe(other);
+        }
+        trace
+    }
+
+    fn moment(&self, device: Device, now: &Now) -> Moment {
+        let value = self.value(device, now.session);
+        let next = now.trace.bits.get(&device).filter(|_| is_bit(device));
+        let next = next.map(|&id| on_off(now.trace.graph.value(id)));
+        Moment {
+            ms: now.session.now_ms(),
+            next: next.filter(|next| *next != value),
+            value,
+            running: now.session.machine().sys().running,
+        }
+    }
+
+    /// Value of a device: `on`, `12`; of a timer or counter its contact.
+    fn value(&self, device: Device, session: &Session) -> String {
+        use DeviceClass::{C, M, S, T, X, Y};
+        let Device { class, number } = device;
+        if matches!(class, X | Y | M | S | T | C) {
+            return on_off(state(session.machine(), device));
+        }
+        let reading = session.reading(Target::Word(class, number));
+        reading.map_or_else(|| "unknown".to_string(), |reading| reading.to_string())
+    }
+
+    /// The instructions that may write a device, with their uses.
+    pub(crate) fn writes(&self, device: Device) -> Vec<Use> {
+        let writes = |one: &&Use| {
+            let kind = matches!(
+                one.kind,
+                UseKind::Coil | UseKind::Set | UseKind::Reset | UseKind::Write | UseKind::Change
+            );
+            let begins = one.first.number <= device.number;
+            let meets = match one.reach {
+                Reach::Count(_) => begins && device.number < one.end(),
+                Reach::Open => begins,
+                Reach::Indexed => true,
+            };
+            kind && one.first.class == device.class && meets
+        };
+        let mut found: Vec<Use> = self.uses.iter().filter(writes).copied().collect();
+        found.dedup_by_key(|one| one.instr);
+        found
+    }
+
+    fn writers(&self, device: Device, trace: &Trace, moment: bool) -> Vec<(usize, Writer)> {
+        let writes = self.writes(device).into_iter();
+        let writer = |one: Use| {
+            let drive = trace.drives.get(&one.instr);
+            let text = |id: Id| self.words.condition(&trace.graph, id);
+            let path = drive.map(|drive| drive.path);
+            let path = path.filter(|&path| *trace.graph.node(path) != Node::Const(true));
+            let mut notes = Vec::new();
+            if drive.is_none() {
+                notes.push("No scan reaches it: nothing calls or jumps to it.".to_string());
+            }
+            match one.reach {
+                Reach::Indexed => {
+                    let index = self.words.index(one.instr).unwrap_or_default();
+                    notes.push(format!(
+                        "Index {index} selects the devices: it may be another one."
+                    ));
+                }
+                Reach::Open => notes.push(format!(
+                    "A register decides how many devices it writes from {} on.",
+                    one.first
+                )),
+                Reach::Count(_) => {}
+            }
+            let on = |drive: &crate::trace::Drive| trace.graph.value(drive.on);
+            let executed = trace.executed.contains(&one.instr);
+            let writer = Writer {
+                place: self.words.place(one.instr),
+                effect: one.kind.word(),
+                condition: drive.map_or_else(|| "unknown".to_string(), |drive| text(drive.on)),
+                executed_if: path.map(text),
+                notes,
+                executed: moment.then_some(executed),
+                driven: moment.then(|| executed && drive.is_some_and(on)),
+            };
+            (one.instr, writer)
+        };
+        writes.map(writer).collect()
+    }
+
+    /// Sentences about a device and its writers.
+    fn notes(&self, device: Device, writers: &[(usize, Writer)]) -> Vec<String> {
+        let mut notes = Vec::new();
+        let name = self.words.named(device);
+        let of = |effect: &str| -> Vec<&Writer> {
+            let writers = writers.iter().map(|(_, writer)| writer);
+            writers.filter(|writer| writer.effect == effect).collect()
+        };
+        let coils = of("coil");
+        if coils.len() > 1 {
+            let steps: Vec<_> = coils.iter().map(|w| w.place.step.to_string()).collect();
+            notes.push(format!(
+                "{name} has {} coils, at steps {}: the last one that is executed decides.",
+                coils.len(),
+                steps.join(", ")
+            ));
+        }
+        let is_bit = !matches!(device.class, DeviceClass::T | DeviceClass::C);
+        match (of("set").is_empty(), of("reset").is_empty()) {
+            (false, true) if coils.is_empty() && is_bit => {
+                notes.push(format!("{name} is set, and no RST resets it."));
+            }
+            (true, false) if coils.is_empty() && is_bit => {
+                notes.push(format!("{name} is reset, and nothing sets it."));
+            }
+            _ => {}
+        }
+        let latched = self.module.is_latched(device.class, device.number);
+        if latched && !is_special(device.class, device.number) {
+            notes.push(format!("{name} keeps its state over power-off."));
+        }
+        if writers.is_empty() {
+            notes.push(match device.class {
+                DeviceClass::X => format!("{name} is an input: its terminal decides."),
+                _ if is_special(device.class, device.number) => {
+                    format!("{name} is a special device: `rungc explain {device}` describes it.")
+                }
+                _ => format!(
+                    "{name} is not written by any instruction: only something outside the program changes it."
+                ),
+            });
+        }
+        notes
+    }
+
+    /// The causes of a device's state, and the devices at which they end.
+    fn causes(
+        &self,
+        device: Device,
+        now: &Now,
+        writers: &[(usize, Writer)],
+    ) -> (Vec<Cause>, Vec<Link>) {
+        let mut search = Search::new(self, now);
+        if is_bit(device) {
+            search.device(device, &mut Vec::new(), true);
+        } else {
+            for (instr, _) in writers {
+                search.drive(device, *instr);
+            }
+        }
+        search.found()
+    }
+}
+
+impl Scan<'_> {
+    /// Follows all functions of the program without executing them.
+    fn program(&mut self) {
+        let yes = self.graph().constant(true);
+        let module = self.module();
+        for function in &module.functions {
+            if is_program(&function.kind) {
+                self.body(&function.body, yes, 0);
+            }
+        }
+    }
+}
+
+fn is_program(kind: &FunctionKind) -> bool {
+    matches!(
+        kind,
+        FunctionKind::Main | FunctionKind::Subroutine(_) | FunctionKind::Interrupt(_)
+    )
+}
+
+/// Returns true if a device is a bit, or has a contact.
+fn is_bit(device: Device) -> bool {
+    use DeviceClass::{C, M, S, T, X, Y};
+    matches!(device.class, X | Y | M | S | T | C)
+}
+
+fn on_off(on: bool) -> String {
+    if on { "on" } else { "off" }.to_string()
+}
+
+/// State of a bit device.
+pub(crate) fn state(machine: &Machine, device: Device) -> bool {
+    let class = rt_class(device.class);
+    class.and_then(|class| machine.bit(class, device.number)) == Some(true)
+}

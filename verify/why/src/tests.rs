@@ -1,0 +1,188 @@
+use crate::{Explainer, History};
+use rungc_ir::Module;
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_lower::marks::Marks;
+use rungc_rt::VirtualHal;
+use rungc_sim::{Session, Target};
+use rungc_syntax::{Device, Program};
+
+struct Built {
+    program: Program,
+    module: Module,
+    marks: Marks,
+}
+
+fn build(list: &str) -> Built {
+    let program = rungc_frontend::read_text("test.il", list).program;
+    let options = CompileOptions {
+        observe_all: true,
+        marks: true,
+        ..CompileOptions::default()
+    };
+    let compiled = compile(&program, &options);
+    Built {
+        module: compiled.module.expect("compiles"),
+        marks: compiled.marks.expect("marks"),
+        program,
+    }
+}
+
+fn device(name: &str) -> Device {
+    let (class, first) = match Target::parse(name).unwrap() {
+        Target::Bit(class, number) | Target::Word(class, number) => (class, number),
+        other => panic!("{other}"),
+    };
+    Device {
+        class,
+        number: first,
+    }
+}
+
+/// The text about a device after these settings, each followed by a scan.
+fn after(list: &str, settings: &[&str], name: &str) -> String {
+    let built = build(list);
+    let explainer = Explainer::new(&built.program, &built.module, &built.marks);
+    let mut session = Session::new(&built.module, VirtualHal::new());
+    let mut history = History::new(session.machine(), device(name));
+    for setting in settings {
+        for one in setting.split_whitespace() {
+            let (target, value) = one.split_once('=').unwrap();
+            let target = Target::parse(target).unwrap();
+            session.set(target, value.parse().unwrap()).unwrap();
+        }
+        let ms = session.now_ms();
+        session.scan(10);
+        history.scanned(session.machine(), ms);
+        session.pass(10);
+    }
+    explainer
+        .at_moment(&mut session, None, device(name), Some(&history))
+        .text()
+}
+
+/// Programs, settings with a scan after each, and the device that is explained.
+const CASES: [(&str, &str, &[&str], &str); 14] = [
+    (
+        "a contact that is open",
+        ";! X000 = start\n;! X001 = stop\nLD X000\nOR M0\nANI X001\nOUT M0\nLD M0\nAND X002\nOUT Y000\nEND\n",
+        &["X000=1", "X000=0"],
+        "Y000",
+    ),
+    (
+        "a coil that holds itself",
+        "LD X000\nOR M0\nANI X001\nOUT M0\nEND\n",
+        &["X000=1", "X000=0"],
+        "M0",
+    ),
+    (
+        "a timer",
+        "LD X000\nOUT T0 K30\nLD T0\nOUT Y000\nEND\n",
+        &["X000=1", "", "", ""],
+        "Y000",
+    ),
+    (
+        "a latch",
+        "LD X000\nSET Y000\nLD X001\nRST Y000\nEND\n",
+        &["X000=1", "X000=0"],
+        "Y000",
+    ),
+    (
+        "a latch that nothing resets",
+        "LD X000\nSET M500\nEND\n",
+        &["X000=1"],
+        "M500",
+    ),
+    (
+        "a master control",
+        "LD X000\nMC N0 M100\nLD X001\nOUT Y000\nMCR N0\nEND\n",
+        &["X001=1"],
+        "Y000",
+    ),
+    (
+        "a state",
+        "LD M8002\nSET S0\nSTL S0\nLD X000\nSET S20\nSTL S20\nOUT Y000\nLD X001\nSET S0\nRET\nEND\n",
+        &["", ""],
+        "Y000",
+    ),
+    (
+        "a jump",
+        "LD X000\nCJ P0\nLD X001\nOUT Y000\nP0\nEND\n",
+        &["X000=1 X001=1"],
+        "Y000",
+    ),
+    (
+        "a routine",
+        "LD X000\nCALL P0\nFEND\nP0\nLD X001\nOUT Y000\nSRET\nP1\nLD X002\nOUT Y000\nSRET\nEND\n",
+        &["X001=1"],
+        "Y000",
+    ),
+    (
+        "a counter",
+        "LD X000\nOUT C0 K3\nLD C0\nOUT Y000\nEND\n",
+        &["X000=1", "X000=0"],
+        "Y000",
+    ),
+    (
+        "a comparison",
+        "LD> D0 K100\nAND X000\nOUT Y000\nEND\n",
+        &["X000=1"],
+        "Y000",
+    ),
+    (
+        "a value through an index",
+        "LD X000\nMOV D0Z0 K1Y000\nLDP X001\nOUT Y010\nEND\n",
+        &["X000=1"],
+        "Y000",
+    ),
+    (
+        "an edge",
+        "LDP X001\nOUT Y010\nEND\n",
+        &["X001=1", ""],
+        "Y010",
+    ),
+    (
+        "a register",
+        "LD X000\nMOV K5 D0\nLD> D0 K3\nOUT Y000\nEND\n",
+        &[""],
+        "D0",
+    ),
+];
+
+#[test]
+fn each_kind_of_cause_has_its_words() {
+    let mut all = String::new();
+    for (title, list, settings, name) in CASES {
+        let built = build(list);
+        let explainer = Explainer::new(&built.program, &built.module, &built.marks);
+        let alone = explainer.of_program(device(name)).text();
+        all += &format!(
+            "# {title}\n{alone}\n-- {settings:?}\n{}\n",
+            after(list, settings, name)
+        );
+    }
+    insta::assert_snapshot!(all);
+}
+
+#[test]
+fn an_answer_leaves_the_run_as_it_was() {
+    let built = build("LD X000\nOUT T0 K2\nLD T0\nOUT Y000\nEND\n");
+    let explainer = Explainer::new(&built.program, &built.module, &built.marks);
+    let mut session = Session::new(&built.module, VirtualHal::new());
+    session.set(Target::parse("X000").unwrap(), 1.0).unwrap();
+    let mut came_on = None;
+    for scan in 0..40 {
+        let why = explainer.at_moment(&mut session, None, device("Y000"), None);
+        let moment = why.moment.unwrap();
+        let next = moment.next.unwrap_or(moment.value);
+        session.scan(10);
+        session.pass(10);
+        let on = session.reading(Target::parse("Y000").unwrap()).unwrap();
+        assert_eq!(
+            next == "on",
+            on == rungc_sim::record::Reading::Bit(true),
+            "{scan}"
+        );
+        came_on = came_on.or((next == "on").then_some(scan));
+    }
+    assert_eq!(came_on, Some(20));
+}
