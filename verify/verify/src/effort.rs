@@ -48,6 +48,11 @@ impl Limit {
         self.meter.steps.set(done);
     }
 
+    /// Returns true if this many steps may follow. What takes them at once would be in vain otherwise.
+    pub fn affords(&self, steps: usize) -> bool {
+        self.meter.steps.get().saturating_add(steps as u64) <= self.end
+    }
+
     /// Returns true if the search ends: that many steps are done, or the time is up.
     pub fn is_over(&self) -> bool {
         if self.meter.steps.get() >= self.end || self.meter.is_late.get() {
@@ -102,6 +107,8 @@ mod tests {
         assert!(half.is_over() && !whole.is_over());
         whole.charge(3 * STEPS as usize);
         assert!(whole.is_over() && longer.is_over() && !whole.is_late());
+        let last = Limit::new(10, None);
+        assert!(last.affords(10 * STEPS as usize) && !last.affords(10 * STEPS as usize + 1));
         assert!(Limit::new(1, Some(std::time::Duration::ZERO)).part(1).end == STEPS);
         assert!(!Limit::none().is_over());
     }

@@ -723,10 +723,12 @@ mod tests {
             },
             ..Options::default()
         };
+        let (encoder, system) = system(&module, &property, &options);
         let question = NeverHappens(OfProperty {
             module: &module,
             property: &property,
             options: &options,
+            surroundings: Surroundings::new(&encoder, &system, options.world.scan_ms),
         });
         let posed = question.posed(&options.world);
         let answer = search(&question, &options.world, &posed, &options.limit());

@@ -64,7 +64,11 @@ type Classes = Vec<Option<usize>>;
 
 /// The same system, smaller; `None` if the limit is reached before anything is proved.
 pub(crate) fn reduced(system: &System, limit: &Limit) -> Option<Reduced> {
-    limit.charge((RUNS * SCANS) as usize * system.aig.nodes().len() / EVALUATED);
+    let steps = (RUNS * SCANS) as usize * system.aig.nodes().len() / EVALUATED;
+    if !limit.affords(steps) {
+        return None;
+    }
+    limit.charge(steps);
     let mut classes = random_runs(system);
     loop {
         limit.charge(system.aig.nodes().len());
