@@ -43,6 +43,8 @@ pub(crate) struct Fact {
     pub(crate) device: Option<Device>,
     /// Bits that it may depend on.
     pub(crate) inputs: Vec<Id>,
+    /// True if its value is that of a scan that executes it.
+    pub(crate) live: bool,
 }
 
 /// Kind of [`Fact`].
@@ -58,8 +60,6 @@ pub(crate) enum FactKind {
     Indexed,
     /// A timer has run its time.
     Elapsed,
-    /// A timer or counter has reached its preset, and keeps that until RST.
-    Reached,
     /// A counter is one count from its preset, or there.
     Counted,
     /// The value that an instruction gives a device.

@@ -27,12 +27,13 @@ impl Scan<'_> {
         instr.is_some_and(|&instr| self.fixed.marks.contacts.get(instr as usize) == Some(&true))
     }
 
-    fn fact(&mut self, kind: FactKind, instr: Option<usize>, inputs: Vec<Id>, value: bool) -> Id {
+    fn fact(&mut self, kind: FactKind, site: Where, inputs: Vec<Id>, value: bool) -> Id {
         let fact = Fact {
             kind,
-            instr,
+            instr: site.instr,
             device: None,
             inputs,
+            live: site.live,
         };
         self.graph().fact(fact, value)
     }
@@ -43,7 +44,8 @@ impl Scan<'_> {
         let instr = self.source(id).or(site.instr);
         match *module.expr(id) {
             Expr::Bit(value) if self.is_contact(id) => {
-                self.fact(FactKind::Constant, instr, Vec::new(), value)
+                let site = Where { instr, ..site };
+                self.fact(FactKind::Constant, site, Vec::new(), value)
             }
             Expr::Bit(value) => self.graph().constant(value),
             Expr::Not(a) => {
@@ -89,7 +91,7 @@ impl Scan<'_> {
         self.inputs(id, site, &mut inputs);
         let value = (site.live || self.is_safe(id)) && self.machine.is_on(id);
         let instr = self.source(id).or(site.instr);
-        self.fact(kind, instr, inputs, value)
+        self.fact(kind, Where { instr, ..site }, inputs, value)
     }
 
     /// Returns true if an expression can be evaluated where the program does not: it needs nothing that conditions

@@ -17,7 +17,7 @@ pub struct Roots {
     /// State of the device after the scan.
     pub on: bool,
     /// Smallest sets of devices of which the scan would have to begin with the opposite for the device to become the
-    /// opposite of `on`.
+    /// opposite of `on`; those for which that is certain.
     pub sets: Vec<Vec<Device>>,
     /// Other contacts of the program: the device stays as it is whatever they are, if `is_whole`.
     pub others: Vec<Device>,
@@ -46,6 +46,12 @@ impl Explainer<'_> {
                 })
                 .collect()
         };
+        let wanted = Some(!trace.graph.value(root));
+        let is_certain = |set: &&Vec<Atom>| {
+            let is_unknown = |id: Id| self.may_differ(&trace, id, set);
+            view.outcome(root, set, &is_unknown) == wanted
+        };
+        let sets = found.sets.iter().filter(is_certain);
         let blamed: BTreeSet<Device> = found
             .sets
             .iter()
@@ -61,10 +67,24 @@ impl Explainer<'_> {
         let stays = |device: &Device| !blamed.contains(device) && !unclear.contains(device);
         Roots {
             on: trace.graph.value(root),
-            sets: found.sets.iter().filter_map(devices).collect(),
+            sets: sets.filter_map(devices).collect(),
             others: others.into_iter().filter(stays).collect(),
             is_whole: !found.more && !special && !trace.jumped,
         }
+    }
+
+    /// Returns true if a bit that is not followed may be another one in a scan that begins with other devices.
+    fn may_differ(&self, trace: &Trace, id: Id, set: &[Atom]) -> bool {
+        let fact = match trace.graph.node(id) {
+            Node::Fact(fact) => fact,
+            // Instructions write special devices that no operand names.
+            Node::Start(device) => return is_special(device.class, device.number),
+            _ => return false,
+        };
+        let mut inputs = BTreeSet::new();
+        self.unclear(trace, id, &mut inputs);
+        let is_changed = |device: &Device| set.contains(&Atom::Start(*device));
+        !fact.live || inputs.iter().any(is_changed)
     }
 
     /// Finds the devices that bits which are not followed may depend on. Returns true if one of these is a special

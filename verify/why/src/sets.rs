@@ -96,9 +96,7 @@ impl View<'_> {
             Node::And(a, b) => Face::And(a, b),
             Node::Or(a, b) => Face::Or(a, b),
             Node::Fact(ref fact) => match (fact.kind, value) {
-                (FactKind::Constant | FactKind::Reached, _) | (FactKind::Elapsed, true) => {
-                    Face::Firm(value)
-                }
+                (FactKind::Constant, _) | (FactKind::Elapsed, true) => Face::Firm(value),
                 _ => Face::Atom(Atom::Fact(id), value),
             },
         }
@@ -181,6 +179,36 @@ impl View<'_> {
         let is_unclear = |set: &Vec<Atom>| set.iter().any(|atom| self.is_unclear(*atom));
         found.sets.sort_by_key(is_unclear);
         found
+    }
+
+    /// Value of a condition with some atoms being different, if others that are unknown do not matter.
+    pub(crate) fn outcome(
+        &self,
+        root: Id,
+        flipped: &[Atom],
+        is_unknown: &dyn Fn(Id) -> bool,
+    ) -> Option<bool> {
+        let Cone { ids, faces } = self.cone(root);
+        let mut values: Vec<Option<bool>> = Vec::with_capacity(faces.len());
+        for (id, face) in ids.into_iter().zip(faces) {
+            let both = |a: usize, b: usize, decides: bool| match (values[a], values[b]) {
+                (Some(a), _) if a == decides => Some(decides),
+                (_, Some(b)) if b == decides => Some(decides),
+                (Some(_), Some(_)) => Some(!decides),
+                _ => None,
+            };
+            let value = match face {
+                Face::Firm(value) => Some(value),
+                Face::Atom(..) if is_unknown(id) => None,
+                Face::Atom(atom, value) => Some(value != flipped.contains(&atom)),
+                Face::Same(a) => values[a],
+                Face::Not(a) => values[a].map(|value| !value),
+                Face::And(a, b) => both(a, b, false),
+                Face::Or(a, b) => both(a, b, true),
+            };
+            values.push(value);
+        }
+        values.pop().flatten()
     }
 
     /// Returns true if nobody knows how to change it.

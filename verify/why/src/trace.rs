@@ -165,26 +165,32 @@ impl<'a> Scan<'a> {
     /// The bit that a write gives a device, which is now, or is left, at `value`.
     fn effect(&mut self, device: Device, site: Where, effect: Effect, value: bool) -> Id {
         let is_on = matches!(effect, Effect::Counter(drive, _) if self.trace.graph.value(drive));
+        let old = self.bit(device);
+        let was = self.trace.graph.value(old);
         let mut fact = |kind, inputs, value| {
             let fact = Fact {
                 kind,
                 instr: site.instr,
                 device: Some(device),
                 inputs,
+                live: site.live,
             };
             self.trace.graph.fact(fact, value)
         };
         match effect {
-            Effect::Timer(_, true) | Effect::Counter(..) if value => {
-                fact(FactKind::Reached, Vec::new(), true)
-            }
-            Effect::Timer(drive, _) => {
-                let elapsed = fact(FactKind::Elapsed, Vec::new(), value);
-                self.graph().and(drive, elapsed)
+            Effect::Timer(drive, keeps) => {
+                let elapsed = fact(FactKind::Elapsed, Vec::new(), value && !(keeps && was));
+                let runs = self.graph().and(drive, elapsed);
+                match keeps {
+                    true => self.graph().or(old, runs),
+                    false => runs,
+                }
             }
             Effect::Counter(drive, next) => {
-                let counted = fact(FactKind::Counted, vec![drive], next && !is_on);
-                self.graph().and(drive, counted)
+                let reaches = if is_on { value && !was } else { next };
+                let counted = fact(FactKind::Counted, vec![drive], reaches);
+                let counts = self.graph().and(drive, counted);
+                self.graph().or(old, counts)
             }
             Effect::Unknown(kind, inputs) => fact(kind, inputs, value),
         }
@@ -384,6 +390,7 @@ impl<'a> Scan<'a> {
                     instr: site.instr,
                     device: None,
                     inputs: Vec::new(),
+                    live: true,
                 };
                 let id = self.graph().fact(fact, value);
                 self.trace.flags.insert(flag, id);
@@ -411,6 +418,7 @@ impl<'a> Scan<'a> {
             instr: site.instr,
             device: Some(device),
             inputs,
+            live: site.live,
         };
         let id = self.graph().fact(fact, false);
         self.trace.words.insert(device, id);

@@ -93,7 +93,6 @@ impl Words<'_> {
                 [text.clone(), format!("not {text}")]
             }
             FactKind::Elapsed => device(["having run its time", "not having run its time"]),
-            FactKind::Reached => device(["having reached its preset", "being reset"]),
             FactKind::Counted => device(["having counted to its preset", "counting on"]),
             FactKind::Written | FactKind::Other => {
                 [source(), format!("another result than {}", source())]
