@@ -35,15 +35,17 @@ pub struct WhyArgs {
 }
 
 impl WhyArgs {
-    /// The program and the device. With one argument it is the device, of the program that rungc.toml names.
+    /// The program and the device. With one argument, which is not a file, it is the device, of the program that
+    /// rungc.toml names. `None` if there is no device.
     pub fn subject(&self) -> Option<(Input, &str)> {
         let mut input = self.input.clone();
         match &self.device {
             Some(device) => Some((input, device)),
             None => {
                 input.file = None;
-                let device = self.input.file.as_ref()?.to_str()?;
-                Some((input, device))
+                let only = self.input.file.as_ref();
+                let name = only.filter(|only| !only.exists())?.to_str()?;
+                Some((input, name))
             }
         }
     }
