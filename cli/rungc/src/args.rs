@@ -129,8 +129,8 @@ pub enum Command {
     Xref(XrefArgs),
     /// Explain why a device is on or off: which contacts, timers and states keep it so.
     ///
-    /// Without a run, lists what can switch the device. With --set, --for or --machine, the program runs to that moment,
-    /// and the answer says what keeps the device as it is, since when, and what would change it.
+    /// Without a run, lists what can switch the device. With --set, --for or --machine, the program runs to that
+    /// moment, and the answer says what keeps the device as it is, since when, and what would change it.
     Why(WhyArgs),
     /// Count steps, instructions and devices, and estimate the scan time of the real PLC.
     Stats(StatsArgs),

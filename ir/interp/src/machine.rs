@@ -185,7 +185,7 @@ impl<'m> Machine<'m> {
         self.observer = Some(observer);
     }
 
-    /// Nobody looks on any longer; returns the observer.
+    /// Removes the observer, and returns it.
     pub fn take_observer(&mut self) -> Option<Box<dyn Observer>> {
         self.observer.take()
     }

@@ -72,8 +72,8 @@ impl<'p> Explainer<'p> {
         }
     }
 
-    /// Explains a device at a moment of a run: what the next scan makes of it, with all else as it is. The session is as
-    /// before afterwards.
+    /// Explains a device at a moment of a run: what the next scan makes of it, with all else as it is. Afterwards the
+    /// session is as before.
     pub fn at_moment(
         &self,
         session: &mut Session<'_>,

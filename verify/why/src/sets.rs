@@ -211,7 +211,7 @@ impl View<'_> {
         values.pop().flatten()
     }
 
-    /// Returns true if nobody knows how to change it.
+    /// Returns true if the way to change it is unknown.
     fn is_unclear(&self, atom: Atom) -> bool {
         let Atom::Fact(id) = atom else {
             return matches!(atom, Atom::Memory(_));
