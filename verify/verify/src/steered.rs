@@ -223,6 +223,10 @@ const CLOSEST: usize = 6;
 /// Scans between two changes of something outside, as powers of two.
 const HABITS: [u32; 6] = [0, 1, 2, 3, 6, STAYS];
 
+/// Percentage of stretches in which power goes off or the PLC goes to STOP now and then. In the others, what is not
+/// latched has time to come to something.
+const INTERRUPTED: u64 = 25;
+
 /// Habit of what does not change.
 const STAYS: u32 = 20;
 
@@ -291,10 +295,16 @@ impl<S: Subject> Steered<S> {
         let most = self.outside.scan_ms;
         let times = [1, 10, 10, 100, most, most, 0];
         let time = self.random.pick(&times).unwrap_or(10);
+        let interrupted = self.random.percent(INTERRUPTED);
         let is_first = self.stretches[this].from.is_none();
         let (mut n, mut end) = (0, 2u64 << self.random.below(7));
         while n < end && !is_over(self.scans) {
-            let step = self.next(&mut levels, &habits, time, is_first && n == 0)?;
+            let step = self.next(
+                &mut levels,
+                &habits,
+                (time, interrupted),
+                is_first && n == 0,
+            )?;
             let state = self.subject.step(&step);
             self.scans += 1;
             self.stretches[this].steps.push(step);
@@ -412,9 +422,16 @@ impl<S: Subject> Steered<S> {
     }
 
     /// The next scan; `None` if the program asks for a longer time than there is.
-    fn next(&mut self, levels: &mut [i64], habits: &[u32], time: u32, first: bool) -> Option<Step> {
-        let power = self.outside.power && !first && self.random.below(400) == 0;
-        let stop = self.outside.stop && !first && !power && self.random.below(100) == 0;
+    fn next(
+        &mut self,
+        levels: &mut [i64],
+        habits: &[u32],
+        (time, interrupted): (u32, bool),
+        first: bool,
+    ) -> Option<Step> {
+        let interrupted = interrupted && !first;
+        let power = self.outside.power && interrupted && self.random.below(100) == 0;
+        let stop = self.outside.stop && interrupted && !power && self.random.below(25) == 0;
         let (set, edges) = self.changes(levels, habits, first);
         let most = self.outside.scan_ms;
         let set_length = set
