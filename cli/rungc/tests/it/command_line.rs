@@ -52,27 +52,6 @@ fn check_for_tools() {
     }
 }
 
-/// Words of other tools have a command here, and misspelt commands the one that is nearest.
-#[test]
-fn unknown_commands_have_a_tip() {
-    let folder = folder(&[]);
-    for (word, command) in [
-        ("compile", Some("build")),
-        ("ladder", Some("view")),
-        ("Prove", Some("verify")),
-        ("upload", Some("read")),
-        ("chek", Some("check")),
-        ("xyzzy", None),
-    ] {
-        let output = rungc(folder.path(), &[word]);
-        let said = text(&output.stderr);
-        let tip = command.map(|command| format!("similar subcommand exists: '{command}'"));
-        assert_eq!(said.contains("tip:"), tip.is_some(), "{said}");
-        assert!(said.contains(&tip.unwrap_or_default()), "{said}");
-        assert_eq!(output.status.code(), Some(2));
-    }
-}
-
 /// `--` before a negative value would not help.
 #[test]
 fn options_take_no_negative_values() {

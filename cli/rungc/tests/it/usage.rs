@@ -130,3 +130,24 @@ fn a_full_disk_is_an_error_that_names_the_stream() {
         );
     }
 }
+
+/// Words of other tools have a command here, and misspelt commands the one that is nearest.
+#[test]
+fn unknown_commands_have_a_tip() {
+    let folder = folder(&[]);
+    for (word, command) in [
+        ("compile", Some("build")),
+        ("ladder", Some("view")),
+        ("Prove", Some("verify")),
+        ("upload", Some("read")),
+        ("chek", Some("check")),
+        ("xyzzy", None),
+    ] {
+        let output = rungc(folder.path(), &[word]);
+        let said = text(&output.stderr);
+        let tip = command.map(|command| format!("similar subcommand exists: '{command}'"));
+        assert_eq!(said.contains("tip:"), tip.is_some(), "{said}");
+        assert!(said.contains(&tip.unwrap_or_default()), "{said}");
+        assert_eq!(output.status.code(), Some(2));
+    }
+}
