@@ -19,7 +19,8 @@ pub struct Why {
     pub notes: Vec<String>,
     /// Causes at the moment: that of the device first, then those of the devices that it depends on.
     pub causes: Vec<Cause>,
-    /// Names of the devices at which the causes end: what keeps the device as it is, in the first of the smallest sets.
+    /// Devices at which the causes end: what keeps the device as it is, in the first of the smallest sets, or in all of
+    /// them where each has one member.
     pub because: Vec<Link>,
 }
 

@@ -129,8 +129,10 @@ impl<'a> Search<'a> {
     ) {
         let mut next = Vec::new();
         let mut all = Vec::new();
+        // Where each member alone would change the state, all of them keep it.
+        let each_alone = !sets.more && sets.sets.iter().all(|set| set.len() == 1);
         for (n, set) in sets.sets.iter().enumerate() {
-            let first = first && n == 0;
+            let first = first && (n == 0 || each_alone);
             let mut links = Vec::new();
             for atom in set {
                 let Some((_, id)) = nodes.iter().find(|(other, _)| other == atom) else {

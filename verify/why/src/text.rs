@@ -185,7 +185,8 @@ impl Cause {
                 let _ = match (left, self.more) {
                     (0, false) => Ok(()),
                     (_, true) => writeln!(out, "    or others"),
-                    (left, false) => writeln!(out, "    or {left} others"),
+                    (1, false) => writeln!(out, "    or one more"),
+                    (left, false) => writeln!(out, "    or {left} more"),
                 };
             }
         }
