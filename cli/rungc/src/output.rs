@@ -262,9 +262,18 @@ fn refuse_input(path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Rejects a path before long work, where a file is that a command would replace with one of no recognisable kind.
+/// Rejects a path before long work, where a file is that a command would replace with one of no recognisable kind, or
+/// where none can be written.
 pub fn spare(path: &Path, force: bool) -> Result<(), Failure> {
-    permit(path, Kind::Own, force)
+    permit(path, Kind::Own, force)?;
+    let path = target(path);
+    let folder = std::path::absolute(parent_dir(&path)).map_err(|error| at(&path, error))?;
+    let there = folder.ancestors().find(|folder| folder.exists());
+    let Some(there) = there.filter(|folder| folder.is_dir()) else {
+        return Ok(());
+    };
+    let tried = temporary(0o666).tempfile_in(there);
+    tried.map(drop).map_err(|error| at(&path, error))
 }
 
 /// Writes a file whole or not at all, as [`permit`] allows.

@@ -448,6 +448,51 @@ fn files_that_cannot_be_written_are_named() {
     assert_eq!(fs::read(at.join("a.il")).unwrap(), long.as_bytes());
 }
 
+/// What cannot be written in the end is said before the work; a folder that is not there is made.
+#[cfg(target_os = "linux")]
+#[test]
+fn folders_are_tried_before_the_work() {
+    let folder = folder(&[("a.il", b"LD X0\nOUT Y0\nEND\n")]);
+    for option in [
+        "verify a.il --never Y0 --write-test",
+        "explore a.il --write-test",
+        "run a.il --for 1s --record",
+    ] {
+        let mut args: Vec<&str> = option.split(' ').collect();
+        args.push("/sys/t.plctest.toml");
+        let output = rungc(folder.path(), &args);
+        let said = text(&output.stderr);
+        assert!(
+            said.starts_with("rungc: /sys/t.plctest.toml: "),
+            "{option}: {said}"
+        );
+        assert!(
+            output.stdout.is_empty(),
+            "{option}: {}",
+            text(&output.stdout)
+        );
+        assert_eq!(output.status.code(), Some(2), "{option}");
+    }
+    let path = "new/tests/t.plctest.toml";
+    let output = rungc(
+        folder.path(),
+        &["verify", "a.il", "--never", "Y0", "--write-test", path],
+    );
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    let output = rungc(folder.path(), &["test", path, "--engine", "interp"]);
+    assert_eq!(
+        output.status.code(),
+        Some(1),
+        "the property is violated: {}",
+        text(&output.stderr)
+    );
+    assert!(
+        text(&output.stdout).contains("1 failed"),
+        "{}",
+        text(&output.stdout)
+    );
+}
+
 /// A folder is not written where something else has its name.
 #[cfg(unix)]
 #[test]
