@@ -95,7 +95,7 @@ impl Program {
 /// Compiles a program: for output, or for runs.
 fn compiled(project: &Project, for_runs: bool) -> Result {
     let options = CompileOptions {
-        optimise: true,
+        optimise: !for_runs,
         observe_all: for_runs,
         marks: for_runs,
         ..project.options()

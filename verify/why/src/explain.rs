@@ -156,12 +156,10 @@ impl<'p> Explainer<'p> {
 
     /// Value of a device: `on`, `12`; of a timer or counter its contact.
     fn value(&self, device: Device, session: &Session) -> String {
-        use DeviceClass::{C, M, S, T, X, Y};
-        let Device { class, number } = device;
-        if matches!(class, X | Y | M | S | T | C) {
+        if is_bit(device) {
             return on_off(state(session.machine(), device));
         }
-        let reading = session.reading(Target::Word(class, number));
+        let reading = session.reading(Target::Word(device.class, device.number));
         reading.map_or_else(|| "unknown".to_string(), |reading| reading.to_string())
     }
 

@@ -1,9 +1,9 @@
 //! Changes of devices in a run.
 
-use rungc_interp::{Machine, rt_class};
+use crate::explain::state;
+use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_ir::node::{AccessKind, Expr};
-use rungc_rt::Plc as _;
 use rungc_syntax::Device;
 use std::collections::BTreeMap;
 
@@ -61,11 +61,6 @@ impl History {
     pub(crate) fn changed(&self, device: Device) -> Option<(u64, u64)> {
         self.devices.get(&device)?.changed
     }
-}
-
-fn state(machine: &Machine, device: Device) -> bool {
-    let class = rt_class(device.class);
-    class.and_then(|class| machine.bit(class, device.number)) == Some(true)
 }
 
 /// Bit devices that a program reads as contacts.

@@ -3,13 +3,13 @@
 //! Statements that are not executed count as well: what they would have done stands under the condition of their
 //! branch.
 
+use crate::explain::state;
 use crate::graph::{Fact, FactKind, Graph, Id};
 use crate::sites::{Address, Site, Sites};
-use rungc_interp::{Machine, Observer, rt_class};
+use rungc_interp::{Machine, Observer};
 use rungc_ir::node::{Action, Branch, EdgeId, FlagId, Stmt, TempId};
 use rungc_ir::{Module, walk};
 use rungc_lower::marks::{Mark, Marks};
-use rungc_rt::Plc as _;
 use rungc_syntax::Device;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::{BTreeMap, BTreeSet};
@@ -133,8 +133,7 @@ impl<'a> Scan<'a> {
 
     /// State of a bit device as it is now.
     pub(super) fn state(&self, device: Device) -> bool {
-        let class = rt_class(device.class);
-        class.and_then(|class| self.machine.bit(class, device.number)) == Some(true)
+        state(self.machine, device)
     }
 
     /// A bit device as the scan has left it so far.
