@@ -12,9 +12,9 @@ use super::properties::{
     ExternalWrites, Reader, RequestedProperty, at_writes, module, report_undriven,
 };
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, check_name, parent_dir, put, read};
+use super::{Context, Failure, Outcome, Result, check_name, put, read};
 use crate::args::VerifyArgs;
-use crate::output::{file, make_folder, spare, write_file};
+use crate::output::{file, spare, write_file};
 use crate::report::Reporter;
 use crate::report::junit::{Case, properties};
 use evidence::{Basis, Grounds};
@@ -170,8 +170,6 @@ fn conclude(
     let Some(path) = &args.write_test else {
         return Ok(());
     };
-    // The program is found from the test's folder.
-    make_folder(parent_dir(path))?;
     match test_file::text(&subject.file, path, module, results, cx) {
         Some(text) => {
             write_file(path, text.as_bytes(), args.force)?;

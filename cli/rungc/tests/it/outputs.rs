@@ -473,6 +473,17 @@ fn folders_are_tried_before_the_work() {
         );
         assert_eq!(output.status.code(), Some(2), "{option}");
     }
+    let kept = [
+        "verify",
+        "a.il",
+        "--never",
+        "Y0 & !X0",
+        "--write-test",
+        "none/t.plctest.toml",
+    ];
+    let output = rungc(folder.path(), &kept);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(!folder.path().join("none").exists(), "nothing was found");
     let path = "new/tests/t.plctest.toml";
     let output = rungc(
         folder.path(),

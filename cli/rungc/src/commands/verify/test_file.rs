@@ -5,7 +5,7 @@ use crate::commands::Context;
 use rungc_ir::Module;
 use rungc_verify::prove::Verdict;
 use rungc_verify::written::{Names, case, outcomes, quoted};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The test file of all runs that were found; `None` if there are none. A run that its case does not show is left out,
 /// with a note.
@@ -16,11 +16,15 @@ pub fn text(
     results: &[Result],
     cx: Context,
 ) -> Option<String> {
-    let head = format!(
-        "topic = \"runs that rungc verify has found\"\nmodel = {}\nprogram = {{ file = {} }}\n",
-        quoted(module.model.name),
-        quoted(&relative(program, path))
-    );
+    let head = |program: &str| {
+        format!(
+            "topic = \"runs that rungc verify has found\"\nmodel = {}\nprogram = {{ file = {} }}\n",
+            quoted(module.model.name),
+            quoted(program)
+        )
+    };
+    // The test's folder may not be there yet.
+    let tried = head(&absolute(program).to_string_lossy());
     let mut names = Names::default();
     let mut text = String::new();
     for result in results {
@@ -33,7 +37,7 @@ pub fn text(
             result.property,
             trace,
         );
-        match shows(path, &format!("{head}{case}"), result) {
+        match shows(path, &format!("{tried}{case}"), result) {
             Ok(()) => text.push_str(&case),
             Err(why) => cx.note(&format!(
                 "     No test of `{}`: as a test, the run shows something else ({why})",
@@ -41,7 +45,7 @@ pub fn text(
             )),
         }
     }
-    (!text.is_empty()).then(|| head + &text)
+    (!text.is_empty()).then(|| head(&relative(program, path)) + &text)
 }
 
 /// Returns an error if the test of a run does not show on the interpreter what the run shows.
@@ -54,9 +58,12 @@ fn shows(path: &Path, text: &str, result: &Result) -> std::result::Result<(), St
     }
 }
 
+fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
 /// The program as seen from the test file's folder.
 pub fn relative(program: &Path, test: &Path) -> String {
-    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let (program, test) = (absolute(program), absolute(test));
     let folder = test.parent().unwrap_or(Path::new(""));
     for (up, ancestor) in folder.ancestors().enumerate() {
