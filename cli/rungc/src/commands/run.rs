@@ -41,7 +41,7 @@ use rungc_lower::compile::{CompileOptions, compile};
 use rungc_sim::Target;
 use rungc_sim::plant::{self, Axis, Description, Plant};
 use rungc_syntax::{DeviceClass, Program, codes, inputs};
-pub(super) use simulate::missing;
+pub(super) use simulate::look_for_all;
 use std::path::Path;
 pub use watch::STANDARD_ERROR;
 
@@ -81,11 +81,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
 
 /// Runs a program.
 pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> Result {
-    if args.scan == Some(0) {
-        return Err(Failure::Because(
-            "--scan: a scan takes at least 1 ms".to_string(),
-        ));
-    }
+    check_scan(args.scan)?;
     let wired_up = connecting::settings(&args.serve, subject, cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let read = match read(subject, &mut reporter) {
@@ -118,10 +114,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     requested.report_unused(args, subject, &read.program);
     let listed = requested.shown(&read.program, &module);
     let has_table = table == Table::Usual || !requested.watched.is_empty();
-    if let Some(machine) = described {
-        let checked = machine.check(module.model);
-        checked.map_err(|error| subject::refuse(error.into(), &subject.reporting, cx))?;
-    }
+    check_machine(described, &module, (subject, cx))?;
     let connections =
         connecting::connections(wired_up, subject, (&module, described), &args.serve, cx)?;
     let plant = described.map(Description::plant);
@@ -284,6 +277,26 @@ fn page(
         watched: watched.to_vec(),
     };
     Live::open(page, &read.program, module.model).map(Some)
+}
+
+/// Rejects scans that take no time.
+pub(super) fn check_scan(scan_ms: Option<u64>) -> std::result::Result<(), Failure> {
+    match scan_ms {
+        Some(0) => Err(Failure::Because(
+            "--scan: a scan takes at least 1 ms".to_string(),
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Rejects a machine with terminals that the model does not have.
+pub(super) fn check_machine(
+    described: Option<&Description>,
+    module: &Module,
+    (subject, cx): (&Subject, Context),
+) -> std::result::Result<(), Failure> {
+    let checked = described.map_or(Ok(()), |machine| machine.check(module.model));
+    checked.map_err(|error| subject::refuse(error.into(), &subject.reporting, cx))
 }
 
 /// The simulated machine, which drives none of the inputs that are set.

@@ -142,6 +142,14 @@ pub fn report_unused(settings: &[Setting], program: &Program, options: CompileOp
     }
 }
 
+/// Reports settings whose time did not come.
+pub fn report_late<'s>(late: impl Iterator<Item = &'s Setting>) {
+    for Setting { at_ms, target, .. } in late {
+        let why = format!("its time, {at_ms} ms, is after the last scan");
+        eprint_line(&format!("rungc: `{target}` was not set: {why}"));
+    }
+}
+
 /// Reads `X000=1@200ms`; the error describes the problem.
 pub fn parse(text: &str, names: &Names) -> std::result::Result<Setting, String> {
     // Comments may contain the sign.

@@ -1,6 +1,6 @@
 //! `rungc why`.
 
-use super::run::machine;
+use super::run::{check_machine, check_scan, look_for_all, machine};
 use super::setting::{self, Setting};
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, conclude, findings, print_text, read};
@@ -12,7 +12,6 @@ use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_sim::Session;
 use rungc_sim::plant::Description;
-use rungc_sim::record::Reading;
 use rungc_sim::session::hardware;
 use rungc_syntax::Device;
 use rungc_why::{Explainer, History};
@@ -23,10 +22,7 @@ pub fn run(args: &WhyArgs, cx: Context) -> Result {
         let message = "name the device: `rungc why PROGRAM DEVICE`";
         return Err(Failure::Because(message.to_string()));
     };
-    if args.scan == Some(0) {
-        let message = "--scan: a scan takes at least 1 ms";
-        return Err(Failure::Because(message.to_string()));
-    }
+    check_scan(args.scan)?;
     let subject = subject::one(&input, cx)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
     let outcome = explain(args, name, &subject, (&mut reporter, cx));
@@ -58,10 +54,7 @@ fn explain(
     };
     setting::check(&settings, module.model)?;
     setting::report_unused(&settings, &read.program, subject.options());
-    if let Some(machine) = &machine {
-        let checked = machine.check(module.model);
-        checked.map_err(|error| subject::refuse(error.into(), &subject.reporting, cx))?;
-    }
+    check_machine(machine.as_ref(), &module, (subject, cx))?;
     let explainer = Explainer::new(&read.program, &module, &marks);
     let device = rungc::why::device(name, &names, &module, &explainer);
     let device = device.map_err(Failure::Because)?;
@@ -107,11 +100,8 @@ impl Run<'_> {
         let parameters = self.read.program.parameters.as_ref();
         let modules = parameters.map_or(&[][..], |parameters| &parameters.modules);
         let mut session = Session::new(self.module, hardware(modules));
-        for setting in self.settings {
-            let seen = session.seen();
-            Reading::of(seen, setting.target)
-                .ok_or_else(|| super::run::missing(setting.target, self.module))?;
-        }
+        let named = self.settings.iter().map(|setting| setting.target);
+        look_for_all(named, session.seen(), self.module)?;
         let mut pending = self.settings;
         set(&mut session, &mut pending);
         if let Some(machine) = self.machine {
@@ -125,10 +115,14 @@ impl Run<'_> {
             history.scanned(session.machine(), began_ms);
             let scan_ms = session.scan_ms(self.args.scan);
             for _ in began_ms..(began_ms + scan_ms).min(end_ms) {
-                session.pass(1);
+                // As in `rungc run`, interrupts are taken after what is set.
+                session.advance(&[], &mut |_| Ok::<_, String>(()))?;
+                session.tick();
                 set(&mut session, &mut pending);
+                session.take_interrupts();
             }
         }
+        setting::report_late(pending.iter());
         Ok(explainer.at_moment(&mut session, self.args.scan, device, Some(&history)))
     }
 }
@@ -142,5 +136,4 @@ fn set(session: &mut Session, pending: &mut &[Setting]) {
         let _ = session.set(setting.target, setting.value);
         *pending = rest;
     }
-    session.take_interrupts();
 }

@@ -53,3 +53,22 @@ fn devices_without_an_answer_are_errors() {
         assert!(out.stdout.is_empty(), "{args:?}");
     }
 }
+
+#[test]
+fn what_is_set_after_the_moment_is_named() {
+    let folder = folder(&[("station.il", STATION.as_bytes())]);
+    let args = [
+        "why",
+        "station.il",
+        "Y0",
+        "--set",
+        "X000=1@2s",
+        "--for",
+        "1s",
+    ];
+    let said = text(&rungc(folder.path(), &args).stderr);
+    assert!(
+        said.contains("`X000` was not set: its time, 2000 ms"),
+        "{said}"
+    );
+}

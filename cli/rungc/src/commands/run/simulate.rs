@@ -2,7 +2,6 @@
 
 mod passing;
 
-use super::Setting;
 use super::connecting::Connecting;
 use super::errors::Errors;
 use super::history::{History, Moment};
@@ -19,6 +18,7 @@ use super::serving::{NetworkRequests, Servers};
 use super::table::Table;
 use super::view::{Column, Kind, View};
 use super::watch::Watch;
+use super::{Setting, setting};
 use crate::args::RunArgs;
 use crate::commands::{Failure, Outcome, Result, eprint_line, interruption, print_text};
 use rungc_host::io::Connection;
@@ -110,7 +110,9 @@ impl Run<'_> {
             .machine_mut()
             .set_program_memory(self.program_memory);
         // Missing devices are reported before anything is shown or written.
-        self.look_for_all(session.seen())?;
+        let set = self.settings.iter().map(|s| s.target);
+        let named = set.chain(self.shown.iter().copied()).chain(self.over);
+        look_for_all(named, session.seen(), module)?;
         let retaining = self.retain.as_ref();
         let retaining = retaining.map(|kept| Retaining::begin(kept, session.machine_mut()));
         let retaining = retaining.transpose()?;
@@ -190,15 +192,6 @@ impl Run<'_> {
         let in_real_time = self.args.in_real_time();
         let wall = in_real_time.then(|| WallClock::begin(&mut hal));
         (hal, wall)
-    }
-
-    /// Looks for all that is set and shown.
-    fn look_for_all(&self, seen: Seen<'_>) -> std::result::Result<(), Failure> {
-        let set = self.settings.iter().map(|s| s.target);
-        for target in set.chain(self.shown.iter().copied()).chain(self.over) {
-            Reading::of(seen, target).ok_or_else(|| missing(target, self.module))?;
-        }
-        Ok(())
     }
 
     /// The diagram that is drawn of the run.
@@ -329,12 +322,7 @@ impl<'a> Simulation<'a> {
         }
         self.out
             .line(format!("\n{}", self.view.diagram(end_ms)).trim_end_matches('\n'))?;
-        for late in self.pending.by_ref() {
-            eprint_line(&format!(
-                "rungc: `{}` was not set: its time, {} ms, is after the last scan",
-                late.target, late.at_ms
-            ));
-        }
+        setting::report_late(self.pending.by_ref());
         Ok(self.outcome(args))
     }
 
@@ -564,8 +552,19 @@ fn column(target: Target) -> Column {
     }
 }
 
-/// The error about a device that the model or its hardware does not have.
-pub fn missing(target: Target, module: &Module) -> Failure {
+/// Reports the first device that the model or its hardware does not have.
+pub fn look_for_all(
+    targets: impl IntoIterator<Item = Target>,
+    seen: Seen<'_>,
+    module: &Module,
+) -> std::result::Result<(), Failure> {
+    for target in targets {
+        Reading::of(seen, target).ok_or_else(|| missing(target, module))?;
+    }
+    Ok(())
+}
+
+fn missing(target: Target, module: &Module) -> Failure {
     let model = module.model.title;
     if let Target::Channel(channel) = target {
         return Failure::Because(format!(
