@@ -56,7 +56,7 @@ pub use program::Program;
 pub use project::{Checked, Options, Project};
 pub use rungc_emit::OutFile;
 pub use rungc_syntax::Severity;
-pub use rungc_why::Why;
+pub use rungc_why::{How, Why};
 
 /// A code of diagnostics, `W0203`, or that of a name, `double-coil`, as [`Options`] takes it; `None` if there is none.
 pub fn code(name: &str) -> Option<&'static str> {

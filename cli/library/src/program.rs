@@ -88,6 +88,7 @@ impl Program {
             module,
             marks,
             names,
+            settings: project.settings(),
         }
     }
 }

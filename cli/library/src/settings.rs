@@ -6,7 +6,7 @@ use rungc_lower::compile::{self, CompileOptions};
 use rungc_models::Plc;
 use rungc_project::serve::Serve;
 use rungc_project::{Check, Project as Settings};
-use rungc_syntax::{DeviceClass, Program, codes};
+use rungc_syntax::{Device, DeviceClass, Program, codes};
 use std::path::{Path, PathBuf};
 
 /// Options for reading: what `given` asks for takes precedence.
@@ -42,6 +42,16 @@ pub fn rules(settings: &Settings) -> Check {
 pub fn unsaved(settings: &Settings) -> Option<(DeviceClass, u32)> {
     let fault = settings.retain_fault.as_ref()?;
     Some((fault.class, fault.first))
+}
+
+/// Returns true if the settings say that something outside writes a device while the program runs: a panel, a
+/// connection, a client.
+pub fn is_written_outside(settings: Option<&Settings>, device: Device) -> bool {
+    let written = settings.map(Settings::written_externally);
+    written.into_iter().flatten().any(|(_, run)| {
+        let numbers = run.first..run.first + run.count;
+        run.class == device.class && numbers.contains(&device.number)
+    })
 }
 
 /// Options for compiling `file` for a PLC, if one is chosen. Errors with the codes `warn` are warnings.

@@ -1,10 +1,12 @@
 //! Reasons for a device to be on or off.
 
+use crate::settings::is_written_outside;
 use crate::{Error, Names, Plc, Program};
 use rungc_ir::Module;
 use rungc_lower::marks::Marks;
+use rungc_project::Project as Settings;
 use rungc_syntax::Device;
-use rungc_why::{Explainer, Why};
+use rungc_why::{Explainer, How, HowOptions, Why};
 
 /// The device of a name, if the model has it and the program names it.
 ///
@@ -33,6 +35,7 @@ pub(crate) struct Source<'p> {
     pub(crate) module: &'p Module,
     pub(crate) marks: &'p Marks,
     pub(crate) names: &'p Names,
+    pub(crate) settings: Option<&'p Settings>,
 }
 
 impl<'p> Source<'p> {
@@ -67,6 +70,23 @@ impl Plc<'_> {
         let (source, session) = self.explained();
         source.explain(name, |explainer, device| {
             explainer.at_moment(session, None, device, None)
+        })
+    }
+
+    /// Searches for what a person can do from now on so that a device changes: inputs, and devices that the program
+    /// reads and something outside writes, are changed one after another.
+    ///
+    /// # Errors
+    /// A name that no device has, a device that the model does not have, or that no instruction names.
+    pub fn how(&mut self, name: &str) -> Result<How, Error> {
+        let (source, session) = self.explained();
+        let is_outside = |device| is_written_outside(source.settings, device);
+        source.explain(name, |explainer, device| {
+            let options = HowOptions {
+                is_outside: &is_outside,
+                ..HowOptions::default()
+            };
+            explainer.how(session, device, &options)
         })
     }
 }

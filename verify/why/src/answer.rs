@@ -22,6 +22,50 @@ pub struct Why {
     /// Devices at which the causes end: what keeps the device as it is, in the first of the smallest sets, or in all of
     /// them where each has one member.
     pub because: Vec<Link>,
+    /// What a person can do so that the device changes, if that was asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub how: Option<How>,
+}
+
+/// Result of a search for what a person can do so that a device changes.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct How {
+    /// The state that is wanted.
+    pub on: bool,
+    /// True if a way was found: `actions`.
+    pub found: bool,
+    /// What to do, in this order; the device changes with the last of them. None of them can be left out.
+    pub actions: Vec<Action>,
+    /// Inputs, and devices that nothing in the program writes, of which changes were tried, with their comments.
+    pub levers: Vec<String>,
+    /// Number of others, farther away in the program, which were not tried.
+    pub left_out: usize,
+    /// Number of different moments that were come to.
+    pub moments: usize,
+    /// True if all moments were come to that changes of the levers, one after another, lead to, within the longest time
+    /// that is waited.
+    pub is_whole: bool,
+}
+
+/// Something that a person does.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct Action {
+    /// Device that is changed; none: a wait.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub device: Option<String>,
+    /// Its comment.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub comment: Option<String>,
+    /// Its new value: `on`, `off`, `12`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub value: Option<String>,
+    /// Number of times that it is switched on and off.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub times: Option<u32>,
+    /// Milliseconds until the next action, or until the device changes.
+    pub takes_ms: u64,
+    /// Devices that change meanwhile: `M0 "automatic" comes on`.
+    pub then: Vec<String>,
 }
 
 /// A moment of a run.

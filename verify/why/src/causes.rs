@@ -400,7 +400,7 @@ impl Progress {
 }
 
 /// An integer.
-fn whole(session: &Session, target: Target) -> Option<i64> {
+pub(crate) fn whole(session: &Session, target: Target) -> Option<i64> {
     match session.reading(target)? {
         Reading::Integer(value, _) => Some(value),
         _ => None,

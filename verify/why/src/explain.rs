@@ -26,7 +26,7 @@ pub struct Explainer<'p> {
     module: &'p Module,
     marks: Arc<Marks>,
     sites: Arc<Sites>,
-    uses: Vec<Use>,
+    pub(crate) uses: Vec<Use>,
 }
 
 impl<'p> Explainer<'p> {
@@ -69,6 +69,7 @@ impl<'p> Explainer<'p> {
             writers: writers.into_iter().map(|(_, writer)| writer).collect(),
             causes: Vec::new(),
             because: Vec::new(),
+            how: None,
         }
     }
 
@@ -97,6 +98,7 @@ impl<'p> Explainer<'p> {
             writers: writers.into_iter().map(|(_, writer)| writer).collect(),
             causes,
             because,
+            how: None,
         }
     }
 
@@ -308,12 +310,12 @@ fn is_program(kind: &FunctionKind) -> bool {
 }
 
 /// Returns true if a device is a bit, or has a contact.
-fn is_bit(device: Device) -> bool {
+pub(crate) fn is_bit(device: Device) -> bool {
     use DeviceClass::{C, M, S, T, X, Y};
     matches!(device.class, X | Y | M | S | T | C)
 }
 
-fn on_off(on: bool) -> String {
+pub(crate) fn on_off(on: bool) -> String {
     if on { "on" } else { "off" }.to_string()
 }
 

@@ -5,6 +5,8 @@
 //! with: conditions that name instructions. From these come the smallest sets of contacts that keep the device as it
 //! is, and so on for the devices of these contacts. What cannot be followed is named as such.
 //!
+//! [`Explainer::how`] searches for what a person can do so that the device changes.
+//!
 //! Start reading at [`Explainer`] (`explain.rs`), then `trace.rs` (a scan as conditions) and `sets.rs`.
 
 mod answer;
@@ -12,18 +14,21 @@ mod causes;
 mod explain;
 mod graph;
 mod history;
+mod levers;
 mod logic;
 mod roots;
 mod sets;
 mod sites;
 mod text;
 mod trace;
+mod ways;
 mod words;
 
-pub use answer::{Cause, Link, Moment, Place, Progress, Reason, Since, Why, Writer};
+pub use answer::{Action, Cause, How, Link, Moment, Place, Progress, Reason, Since, Why, Writer};
 pub use explain::Explainer;
 pub use history::History;
 pub use roots::Roots;
+pub use ways::HowOptions;
 
 #[cfg(test)]
 mod tests;

@@ -1,4 +1,4 @@
-use crate::{Explainer, History};
+use crate::{Explainer, History, HowOptions};
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_lower::marks::Marks;
@@ -185,4 +185,95 @@ fn an_answer_leaves_the_run_as_it_was() {
         came_on = came_on.or((next == "on").then_some(scan));
     }
     assert_eq!(came_on, Some(20));
+}
+
+/// What a person can do about a device, from the moment after these settings.
+fn how(list: &str, settings: &[&str], name: &str) -> (String, crate::How) {
+    let built = build(list);
+    let explainer = Explainer::new(&built.program, &built.module, &built.marks);
+    let mut session = Session::new(&built.module, VirtualHal::new());
+    for setting in settings {
+        for one in setting.split_whitespace() {
+            let (target, value) = one.split_once('=').unwrap();
+            let target = Target::parse(target).unwrap();
+            session.set(target, value.parse().unwrap()).unwrap();
+        }
+        session.scan(10);
+        session.pass(10);
+    }
+    let mut why = explainer.at_moment(&mut session, None, device(name), None);
+    let how = explainer.how(&mut session, device(name), &HowOptions::default());
+    why.how = Some(how.clone());
+    let text = why.text();
+    (
+        text[text.find("\nFor it").or(text.find("\nNo way")).unwrap()..].to_string(),
+        how,
+    )
+}
+
+#[test]
+fn what_a_person_can_do_is_found() {
+    let cases: [(&str, &str, &[&str], &str); 10] = [
+        (
+            "a conveyor",
+            ";! X000 = start\n;! X001 = stop\n;! X002 = guard\nLD X000\nOR M0\nANI X001\nAND X002\nOUT M0\nLD X003\nOUT T0 K20\nLD T0\nOUT M1\nLD M0\nANI M1\nOUT Y000\nEND\n",
+            &["X003=1"; 30],
+            "Y000",
+        ),
+        (
+            "a timer",
+            "LD X000\nOUT T0 K300\nLD T0\nOUT Y000\nEND\n",
+            &[""],
+            "Y000",
+        ),
+        (
+            "a counter",
+            "LD X000\nOUT C0 K30\nLD X001\nRST C0\nLD C0\nAND X002\nOUT Y000\nEND\n",
+            &["X001=1"],
+            "Y000",
+        ),
+        (
+            "a latch",
+            "LD X000\nSET Y000\nLDP X001\nRST Y000\nEND\n",
+            &["X000=1 X001=1"],
+            "Y000",
+        ),
+        (
+            "a sequence",
+            "LD M8002\nSET S0\nSTL S0\nLD X000\nSET S20\nSTL S20\nOUT T0 K15\nLD T0\nAND X001\nSET S21\nSTL S21\nOUT Y000\nLD X002\nSET S0\nRET\nEND\n",
+            &[""],
+            "Y000",
+        ),
+        (
+            "a panel",
+            "LD M10\nAND M11\nOUT Y000\nRST M11\nLD> D0 K100\nSET M11\nEND\n",
+            &[""],
+            "Y000",
+        ),
+        (
+            "a clock",
+            "LD X000\nANDP M8013\nINC D0\nLD= D0 K4\nOUT Y000\nEND\n",
+            &[""],
+            "Y000",
+        ),
+        (
+            "a code",
+            "LDP X001\nAND X000\nANI X002\nSET M1\nLDP X002\nAND M1\nSET M2\nLDF X001\nAND M2\nOUT Y000\nEND\n",
+            &[""],
+            "Y000",
+        ),
+        (
+            "nothing",
+            "LD X000\nANI X000\nOUT Y000\nEND\n",
+            &[""],
+            "Y000",
+        ),
+        ("an input", "LD X000\nOUT Y000\nEND\n", &["X000=1"], "X000"),
+    ];
+    let mut all = String::new();
+    for (title, list, settings, name) in cases {
+        let (text, _) = how(list, settings, name);
+        all += &format!("# {title}{text}\n");
+    }
+    insta::assert_snapshot!(all);
 }

@@ -1,6 +1,6 @@
 //! Answers as text: the answer first, then the way to it.
 
-use crate::answer::{Cause, Link, Place, Reason, Why, Writer};
+use crate::answer::{Action, Cause, How, Link, Place, Reason, Why, Writer};
 use std::fmt::{self, Write as _};
 
 /// Number of sets that the text lists of one cause.
@@ -56,6 +56,11 @@ impl Why {
                 writer.write(&mut out);
             }
         }
+        if let Some(how) = &self.how {
+            let name = named(&self.device, self.comment.as_deref());
+            out.push('\n');
+            how.write(&name, &mut out);
+        }
         out
     }
 
@@ -92,6 +97,62 @@ impl Why {
         if !moment.running {
             let _ = writeln!(out, "The PLC is in STOP: no instruction is executed.");
         }
+    }
+}
+
+impl How {
+    fn write(&self, name: &str, out: &mut String) {
+        let (wanted, comes) = match self.on {
+            true => ("come on", "comes on"),
+            false => ("go off", "goes off"),
+        };
+        if self.found {
+            let _ = writeln!(out, "For it to {wanted}:");
+            for (n, action) in self.actions.iter().enumerate() {
+                let _ = write!(out, "  {}. ", n + 1);
+                action.write(out);
+            }
+            let _ = writeln!(out, "Then {name} {comes}.");
+            return;
+        }
+        let _ = match self.moments {
+            0 => writeln!(out, "What makes it {wanted} was not searched for."),
+            moments => writeln!(
+                out,
+                "No way for it to {wanted} was found, in {moments} states that these lead to: {}.",
+                list(&self.levers)
+            ),
+        };
+        if self.left_out > 0 {
+            let _ = writeln!(
+                out,
+                "Not tried: {} devices that are farther away.",
+                self.left_out
+            );
+        } else if !self.is_whole && self.moments > 0 {
+            let _ = writeln!(out, "There are more states: the search has a limit.");
+        }
+    }
+}
+
+impl Action {
+    fn write(&self, out: &mut String) {
+        let name = self
+            .device
+            .as_deref()
+            .map(|device| named(device, self.comment.as_deref()));
+        let takes = time(self.takes_ms);
+        let text = match (name, self.value.as_deref(), self.times) {
+            (None, ..) => format!("wait {takes}"),
+            (Some(name), Some(state @ ("on" | "off")), _) => format!("{name} {state}"),
+            (Some(name), Some(value), _) => format!("{name} = {value}"),
+            (Some(name), None, None | Some(1)) => format!("{name} on, and off again"),
+            (Some(name), None, Some(times)) => format!("{name} on, and off again: {times} times"),
+        };
+        let _ = match self.then.is_empty() {
+            true => writeln!(out, "{text}"),
+            false => writeln!(out, "{text}: {}", list(&self.then)),
+        };
     }
 }
 

@@ -272,3 +272,19 @@ fn the_book_shows_the_example_that_is_tested() {
         assert!(executed.contains(&format!("    {line}\n")), "{line}");
     }
 }
+
+#[test]
+fn advice_can_be_followed() {
+    let program = list(DELAY, "fx3u").check().compile().unwrap();
+    let mut plc = program.start();
+    plc.scan();
+    let how = plc.how("Y000").unwrap();
+    let [press, wait] = &how.actions[..] else {
+        panic!("{how:?}");
+    };
+    assert_eq!(press.comment.as_deref(), Some("Start"));
+    plc.set(press.device.as_deref().unwrap(), true).unwrap();
+    plc.run_for(ms(press.takes_ms + wait.takes_ms));
+    assert!(plc.bit("Y000").unwrap());
+    assert!(matches!(plc.how("Y001"), Err(Error::Device(_))));
+}

@@ -11,6 +11,7 @@ Examples:
   rungc why press.il Y000                               what can switch Y000
   rungc why press.il Y000 --set X000=1,X001=1 --for 2s  why it is on or off after 2 s
   rungc why press.il \"press valve\" --for 1s             a device by its comment
+  rungc why press.il Y000 --how                         what a person can do so that it changes
   rungc why press.il Y000 --for 1s --format json        the answer as an object")]
 pub struct WhyArgs {
     #[command(flatten)]
@@ -19,7 +20,7 @@ pub struct WhyArgs {
     #[arg(value_name = "DEVICE")]
     pub device: Option<String>,
     /// Explain the moment after this virtual time: `200ms`, `5s`, `2min`; a bare number is milliseconds. Default: 1s if
-    /// a device is set or there is a machine; else the program alone is explained.
+    /// a device is set, there is a machine, or `--how` asks; else the program alone is explained.
     #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
     pub duration: Option<u64>,
     /// Scan time, in virtual time; a longer constant scan time of the program takes precedence. Default: the program's
@@ -32,6 +33,9 @@ pub struct WhyArgs {
     /// Simulated machine, whose axes, cylinders and delays follow the outputs and drive inputs (`rungc book machines`).
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
+    /// Search for what a person can do from that moment on so that the device changes.
+    #[arg(long)]
+    pub how: bool,
 }
 
 impl WhyArgs {
@@ -53,7 +57,8 @@ impl WhyArgs {
     /// Time of the moment in milliseconds; `None` if the program alone is explained.
     pub fn end_ms(&self) -> Option<u64> {
         const USUAL_MS: u64 = 1000;
-        let runs = !self.set.is_empty() || self.machine.is_some() || self.scan.is_some();
+        let runs =
+            self.how || !self.set.is_empty() || self.machine.is_some() || self.scan.is_some();
         self.duration.or(runs.then_some(USUAL_MS))
     }
 }

@@ -6,6 +6,7 @@ use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, conclude, findings, print_text, read};
 use crate::args::{Format, WhyArgs};
 use crate::report::{Reporter, to_json};
+use rungc::settings::is_written_outside;
 use rungc::{Names, Why};
 use rungc_frontend::Read;
 use rungc_ir::Module;
@@ -14,7 +15,7 @@ use rungc_sim::Session;
 use rungc_sim::plant::Description;
 use rungc_sim::session::hardware;
 use rungc_syntax::Device;
-use rungc_why::{Explainer, History};
+use rungc_why::{Explainer, History, HowOptions};
 
 /// Explains why a device is on or off.
 pub fn run(args: &WhyArgs, cx: Context) -> Result {
@@ -60,6 +61,7 @@ fn explain(
     let device = device.map_err(Failure::Because)?;
     let run = Run {
         args,
+        subject,
         read: &read,
         module: &module,
         settings: &settings,
@@ -84,6 +86,7 @@ fn print(why: &Why, format: Format) -> std::result::Result<(), Failure> {
 /// The run that leads to the moment.
 struct Run<'a> {
     args: &'a WhyArgs,
+    subject: &'a Subject,
     read: &'a Read,
     module: &'a Module,
     settings: &'a [Setting],
@@ -123,7 +126,18 @@ impl Run<'_> {
             }
         }
         setting::report_late(pending.iter());
-        Ok(explainer.at_moment(&mut session, self.args.scan, device, Some(&history)))
+        let mut why = explainer.at_moment(&mut session, self.args.scan, device, Some(&history));
+        if self.args.how {
+            let settings = self.subject.own_project();
+            let is_outside = |device| is_written_outside(settings, device);
+            let options = HowOptions {
+                scan_ms: self.args.scan,
+                is_outside: &is_outside,
+                ..HowOptions::default()
+            };
+            why.how = Some(explainer.how(&mut session, device, &options));
+        }
+        Ok(why)
     }
 }
 

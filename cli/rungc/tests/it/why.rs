@@ -33,6 +33,23 @@ fn a_program_may_come_from_the_settings() {
 }
 
 #[test]
+fn a_person_may_press_what_a_panel_shows() {
+    let list = "LD M10\nAND X000\nSET Y000\nRST M10\nEND\n";
+    let settings = "[project]\nprogram = \"panel.il\"\n[hmi]\nwrites = \"M10\"\n";
+    let found = |settings: &str| {
+        let files: [(&str, &[u8]); 2] = [
+            ("panel.il", list.as_bytes()),
+            ("rungc.toml", settings.as_bytes()),
+        ];
+        let folder = folder(&files);
+        let answer = shown(folder.path(), &["why", "panel.il", "Y000", "--how"]);
+        answer[answer.find("\n\n").unwrap()..].to_string()
+    };
+    insta::assert_snapshot!("why_how_panel", found(settings));
+    insta::assert_snapshot!("why_how_none", found("[project]\nprogram = \"panel.il\"\n"));
+}
+
+#[test]
 fn devices_without_an_answer_are_errors() {
     let folder = folder(&[("station.il", STATION.as_bytes())]);
     for (args, expected) in [
