@@ -32,6 +32,8 @@ pub struct Why {
 pub struct How {
     /// The state that is wanted.
     pub on: bool,
+    /// True for an output that sends pulses: `on` means that it sends them, or is on.
+    pub pulses: bool,
     /// True if a way was found: `actions`.
     pub found: bool,
     /// What to do, in this order; the device changes with the last of them. None of them can be left out.

@@ -55,11 +55,7 @@ impl<'p> Explainer<'p> {
 
     /// Lists what can switch a device, by the program alone.
     pub fn of_program(&self, device: Device) -> Why {
-        let machine = Machine::new(self.module);
-        let fixed = self.fixed(device);
-        let mut trace = Trace::default();
-        let mut scan = Scan::new(&fixed, &mut trace, &machine);
-        scan.program();
+        let trace = self.conditions(device);
         let writers = self.writers(device, &trace, false);
         Why {
             device: device.to_string(),
@@ -71,6 +67,15 @@ impl<'p> Explainer<'p> {
             because: Vec::new(),
             how: None,
         }
+    }
+
+    /// The conditions of the whole program, without executing it.
+    pub(crate) fn conditions(&self, device: Device) -> Trace {
+        let machine = Machine::new(self.module);
+        let fixed = self.fixed(device);
+        let mut trace = Trace::default();
+        Scan::new(&fixed, &mut trace, &machine).program();
+        trace
     }
 
     /// Explains a device at a moment of a run: what the next scan makes of it, with all else as it is. Afterwards the

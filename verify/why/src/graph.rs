@@ -90,13 +90,30 @@ enum Key {
     Or(Id, Id),
 }
 
+impl Id {
+    /// Position of its node in the graph.
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 impl Graph {
+    /// All nodes, operands first.
+    pub(crate) fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
     pub(crate) fn node(&self, id: Id) -> &Node {
-        &self.nodes[id.0 as usize]
+        &self.nodes[id.index()]
+    }
+
+    /// The values of all nodes.
+    pub(crate) fn values(&self) -> &[bool] {
+        &self.values
     }
 
     pub(crate) fn value(&self, id: Id) -> bool {
-        self.values[id.0 as usize]
+        self.values[id.index()]
     }
 
     fn push(&mut self, node: Node, value: bool) -> Id {

@@ -16,6 +16,7 @@ mod graph;
 mod history;
 mod levers;
 mod logic;
+mod needs;
 mod roots;
 mod sets;
 mod sites;

@@ -277,3 +277,19 @@ fn what_a_person_can_do_is_found() {
     }
     insta::assert_snapshot!(all);
 }
+
+#[test]
+fn long_sequences_are_found() {
+    // A code of inputs in order.
+    let mut list = String::from("LD M8002\nSET S0\n");
+    for (n, input) in [3, 1, 4, 1, 5, 2, 6, 5, 3, 7].into_iter().enumerate() {
+        let state = if n == 0 { 0 } else { 20 + n };
+        list += &format!(
+            "STL S{state}\nLD X{input:03o}\nANDP X000\nSET S{}\n",
+            21 + n
+        );
+    }
+    list += "STL S30\nOUT Y000\nRET\nEND\n";
+    let (_, how) = how(&list, &[""], "Y000");
+    assert!(how.found, "{how:?}");
+}

@@ -50,7 +50,8 @@ impl Why {
             out.push('\n');
             cause.write(&mut out);
         }
-        if self.moment.is_none() && !self.writers.is_empty() {
+        let is_followed = |cause: &Cause| !cause.sets.is_empty() || cause.reason == Reason::Written;
+        if !asked.first().is_some_and(is_followed) && !self.writers.is_empty() {
             out.push('\n');
             for writer in &self.writers {
                 writer.write(&mut out);
@@ -102,9 +103,11 @@ impl Why {
 
 impl How {
     fn write(&self, name: &str, out: &mut String) {
-        let (wanted, comes) = match self.on {
-            true => ("come on", "comes on"),
-            false => ("go off", "goes off"),
+        let (wanted, comes) = match (self.on, self.pulses) {
+            (true, false) => ("come on", "comes on"),
+            (false, false) => ("go off", "goes off"),
+            (true, true) => ("send pulses or come on", "does"),
+            (false, true) => ("send no pulses and go off", "does"),
         };
         if self.found {
             let _ = writeln!(out, "For it to {wanted}:");

@@ -1,15 +1,17 @@
 //! Search for what a person can do so that a device changes.
 //!
-//! From the moment on, inputs and other [levers](crate::levers) are changed one after another, the cheapest courses
-//! first, with as much time between as things take to happen. What is found has happened in the interpreter, and no
-//! action of it can be left out.
+//! From the moment on, inputs and other [levers](crate::levers) are changed one after another, with as much time between
+//! as things take to happen. Short courses that come [close](crate::needs) are continued first. What is found has
+//! happened in the interpreter, and no action of it can be left out.
 
 use crate::answer::{Action, How};
 use crate::causes::whole;
 use crate::explain::{Explainer, is_bit, on_off, state};
 use crate::levers::{Cone, Lever, target};
+use crate::needs::Needs;
+use rungc_interp::Machine;
 use rungc_models::runs::is_special;
-use rungc_rt::Plc as _;
+use rungc_rt::{Plc as _, Program as _};
 use rungc_sim::session::Moment;
 use rungc_sim::{Session, Target};
 use rungc_syntax::{Device, DeviceClass};
@@ -44,6 +46,9 @@ const MOST_CHANGES: usize = 3;
 
 /// Cost of a change, and of a series of pulses. Levers cost more, the farther away they are.
 const COSTS: (u32, u32) = (4, 9);
+
+/// Cost of what a place lacks, in the units of an estimate.
+const WEIGHT: u32 = 5;
 
 /// Levers that are farther away than this cost no more.
 const FARTHEST: u32 = 6;
@@ -103,6 +108,9 @@ struct Course {
 /// A moment that a course of actions leads to.
 struct Place {
     moment: Moment,
+    cost: u32,
+    /// What it lacks, in the measure of costs.
+    far: u32,
     from: Option<(usize, Act)>,
     reached: bool,
 }
@@ -127,6 +135,7 @@ struct Search<'s, 'm> {
     timers: Vec<Target>,
     /// True if something happens that devices do not show.
     is_busy: bool,
+    needs: Needs,
     price: usize,
     spent: usize,
     effort: usize,
@@ -140,9 +149,11 @@ impl Explainer<'_> {
         let now = session.save();
         let blamed = self.roots(session, options.scan_ms, device).sets.concat();
         let cone = self.cone(session, (device, &blamed), options.is_outside);
-        let wanted = !state(session.machine(), device);
+        let wanted = !is_active(session.machine_mut(), device);
+        let outputs = &self.module().pulse_outputs;
         let mut how = How {
             on: wanted,
+            pulses: device.class == DeviceClass::Y && outputs.contains(&device.number),
             found: false,
             actions: Vec::new(),
             levers: cone
@@ -157,7 +168,9 @@ impl Explainer<'_> {
         if !is_bit(device) || !session.machine().sys().running {
             return how;
         }
-        let mut search = Search::new(session, options, (device, wanted), cone);
+        let levers = cone.levers.iter().map(|lever| lever.device);
+        let needs = Needs::new(self, (device, wanted), levers);
+        let mut search = Search::new(session, options, (device, wanted), (cone, needs));
         let found = search.course();
         how.moments = search.seen.len();
         how.is_whole = matches!(found, Ok(None)) && how.left_out == 0;
@@ -180,7 +193,7 @@ impl<'s, 'm> Search<'s, 'm> {
         session: &'s mut Session<'m>,
         options: &HowOptions,
         (device, wanted): (Device, bool),
-        cone: Cone,
+        (cone, needs): (Cone, Needs),
     ) -> Self {
         let ours = |device: &&Device| !is_special(device.class, device.number);
         let devices = || cone.levels.keys().filter(ours).copied();
@@ -205,30 +218,32 @@ impl<'s, 'm> Search<'s, 'm> {
             seen: FxHashSet::default(),
             session,
             cone,
+            needs,
         }
     }
 
-    /// The cheapest course of actions after which the device has changed; `None` if none of all has changed it.
+    /// A course of actions after which the device has changed; `None` if none of all has changed it.
     fn course(&mut self) -> Result<Option<Vec<Act>>, Limited> {
-        let mut places = vec![Place {
-            moment: self.session.save(),
-            from: None,
-            reached: false,
-        }];
         let view = self.view();
         self.seen.insert(view);
-        // Each with its cost: a place, or something that is to be done there.
+        let mut places = vec![self.place(0, None, false)];
+        // Each with its cost and what it lacks: a place, or something that is to be done there.
         let mut open = BinaryHeap::from([Reverse((0u32, 0usize, None))]);
-        while let Some(Reverse((cost, at, attempt))) = open.pop() {
-            let Some(attempt) = attempt else {
-                if places[at].reached {
+        while let Some(Reverse((_, at, attempt))) = open.pop() {
+            let place = &places[at];
+            let Some((price, attempt)) = attempt else {
+                if place.reached {
                     return Ok(Some(acts_to(&places, at)));
                 }
-                let attempts = self.attempts(&places[at]).into_iter();
-                open.extend(attempts.map(|(price, one)| Reverse((cost + price, at, Some(one)))));
+                self.session.restore(&place.moment);
+                for attempt in self.attempts() {
+                    let cost = place.cost + attempt.0 + place.far;
+                    open.push(Reverse((cost, at, Some(attempt))));
+                }
                 continue;
             };
-            self.session.restore(&places[at].moment);
+            let cost = place.cost + price;
+            self.session.restore(&place.moment);
             let course = self.attempt(attempt);
             if self.spent >= self.effort || places.len() >= MOST_MOMENTS {
                 return Err(Limited);
@@ -238,20 +253,34 @@ impl<'s, 'm> Search<'s, 'm> {
             };
             let view = self.view();
             if self.seen.insert(view) || course.reached {
-                open.push(Reverse((cost, places.len(), None)));
-                places.push(Place {
-                    moment: self.session.save(),
-                    from: Some((at, course.act)),
-                    reached: course.reached,
-                });
+                let place = self.place(cost, Some((at, course.act)), course.reached);
+                open.push(Reverse((cost + place.far, places.len(), None)));
+                places.push(place);
             }
         }
         Ok(None)
     }
 
-    /// Actions that are tried at a place, with their prices.
-    fn attempts(&mut self, place: &Place) -> Vec<(u32, Attempt)> {
-        self.session.restore(&place.moment);
+    /// The present moment as a place.
+    fn place(&mut self, cost: u32, from: Option<(usize, Act)>, reached: bool) -> Place {
+        let far = match reached {
+            true => 0,
+            false => {
+                self.spent += self.needs.price();
+                WEIGHT * self.needs.estimate(self.session.machine())
+            }
+        };
+        Place {
+            moment: self.session.save(),
+            from,
+            reached,
+            cost,
+            far,
+        }
+    }
+
+    /// Actions that are tried now, with their prices.
+    fn attempts(&self) -> Vec<(u32, Attempt)> {
         let (change, pulses) = COSTS;
         let waits = WAITS.iter().map(|&(cost, ms)| (cost, Attempt::Wait(ms)));
         let mut attempts: Vec<(u32, Attempt)> = waits.collect();
@@ -357,10 +386,14 @@ impl<'s, 'm> Search<'s, 'm> {
         self.spent += self.price;
         let ms = self.session.scan_ms(self.scan_ms);
         self.session.scan(ms);
-        let reached = state(self.session.machine(), self.device) == self.wanted;
+        let reached = self.is_reached();
         let ms = self.session.scan_ms(self.scan_ms);
         self.session.pass(ms);
-        reached || state(self.session.machine(), self.device) == self.wanted
+        reached || self.is_reached()
+    }
+
+    fn is_reached(&mut self) -> bool {
+        is_active(self.session.machine_mut(), self.device) == self.wanted
     }
 
     /// Scans until nothing changes but times. Returns true if the device has changed.
@@ -415,6 +448,22 @@ impl<'s, 'm> Search<'s, 'm> {
                     (acts, at) = (fewer, 0);
                 }
                 None => at += 1,
+            }
+        }
+        self.without_pulses(now, acts)
+    }
+
+    /// The same course with an input switched off where switching it on before adds nothing.
+    fn without_pulses(&mut self, now: &Moment, mut acts: Vec<Act>) -> Vec<Act> {
+        for at in 0..acts.len() {
+            if let Act::Pulses(lever, 1) = acts[at] {
+                let mut fewer = acts.clone();
+                fewer[at] = Act::Change(lever, 0);
+                self.session.restore(now);
+                let end = fewer.iter().position(|&act| self.repeat(act));
+                if end == Some(acts.len() - 1) {
+                    acts = fewer;
+                }
             }
         }
         acts
@@ -480,6 +529,12 @@ impl<'s, 'm> Search<'s, 'm> {
             .map(|(_, device, on)| format!("{} {}", explainer.words.named(device), verb(on)))
             .collect()
     }
+}
+
+/// Returns true if a device is on, or an output sends pulses.
+fn is_active(machine: &mut Machine, device: Device) -> bool {
+    let sends = device.class == DeviceClass::Y && machine.pulse_millihertz(device.number) > 0;
+    sends || state(machine, device)
 }
 
 /// The actions that lead to a place.
