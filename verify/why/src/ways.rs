@@ -1,8 +1,8 @@
 //! Search for what a person can do so that a device changes.
 //!
-//! From the moment on, inputs and other [levers](crate::levers) are changed one after another, with as much time between
-//! as things take to happen. Short courses that come [close](crate::needs) are continued first. What is found has
-//! happened in the interpreter, and no action of it can be left out.
+//! From the moment on, inputs and other [levers](crate::levers) are changed one after another, with as much time
+//! between as things take to happen. Short courses that come [close](crate::needs) are continued first. What is found
+//! has happened in the interpreter, and no action of it can be left out.
 
 use crate::answer::{Action, How};
 use crate::causes::whole;
@@ -11,7 +11,8 @@ use crate::levers::{Cone, Lever, target};
 use crate::needs::Needs;
 use rungc_interp::Machine;
 use rungc_models::runs::is_special;
-use rungc_rt::{Plc as _, Program as _};
+use rungc_rt::Plc as _;
+use rungc_sim::record::hertz;
 use rungc_sim::session::Moment;
 use rungc_sim::{Session, Target};
 use rungc_syntax::{Device, DeviceClass};
@@ -149,7 +150,7 @@ impl Explainer<'_> {
         let now = session.save();
         let blamed = self.roots(session, options.scan_ms, device).sets.concat();
         let cone = self.cone(session, (device, &blamed), options.is_outside);
-        let wanted = !is_active(session.machine_mut(), device);
+        let wanted = !is_active(session.machine(), device);
         let outputs = &self.module().pulse_outputs;
         let mut how = How {
             on: wanted,
@@ -392,8 +393,8 @@ impl<'s, 'm> Search<'s, 'm> {
         reached || self.is_reached()
     }
 
-    fn is_reached(&mut self) -> bool {
-        is_active(self.session.machine_mut(), self.device) == self.wanted
+    fn is_reached(&self) -> bool {
+        is_active(self.session.machine(), self.device) == self.wanted
     }
 
     /// Scans until nothing changes but times. Returns true if the device has changed.
@@ -532,8 +533,8 @@ impl<'s, 'm> Search<'s, 'm> {
 }
 
 /// Returns true if a device is on, or an output sends pulses.
-fn is_active(machine: &mut Machine, device: Device) -> bool {
-    let sends = device.class == DeviceClass::Y && machine.pulse_millihertz(device.number) > 0;
+fn is_active(machine: &Machine, device: Device) -> bool {
+    let sends = device.class == DeviceClass::Y && hertz(machine, device.number) != 0.0;
     sends || state(machine, device)
 }
 

@@ -3,8 +3,9 @@
 
 use crate::subjects::{Subject, conformance, devices, examples, state, target};
 use rungc_rt::VirtualHal;
+use rungc_sim::record::Reading;
 use rungc_sim::{Session, Target};
-use rungc_syntax::Device;
+use rungc_syntax::{Device, DeviceClass};
 use rungc_why::{Action, Explainer, How, HowOptions};
 
 /// Effort of each search.
@@ -14,13 +15,20 @@ const SCAN_MS: u64 = 10;
 /// Scans for which an input that is switched on and off stays so.
 const PULSE: u64 = 3;
 
+/// Returns true if a device is on, or an output sends pulses.
+fn is_active(session: &Session, device: Device) -> bool {
+    let frequency = Target::Frequency(device.number);
+    let sends = matches!(session.reading(frequency), Some(Reading::Float(hertz)) if hertz > 0.0);
+    sends && device.class == DeviceClass::Y || state(session, device)
+}
+
 /// Executes scans until the device is in a state. Returns true if it was within this time.
 fn scans(session: &mut Session, ms: u64, (device, on): (Device, bool)) -> bool {
     (0..ms.div_ceil(SCAN_MS)).any(|_| {
         session.scan(SCAN_MS);
-        let after = state(session, device) == on;
+        let after = is_active(session, device) == on;
         session.pass(SCAN_MS);
-        after || state(session, device) == on
+        after || is_active(session, device) == on
     })
 }
 
