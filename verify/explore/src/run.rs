@@ -235,10 +235,6 @@ impl<'t> Runner<'t> {
         let elapsed_ms = self.last_ms.replace(scan_ms).unwrap_or(0);
         let constant_ms = self.session.machine().constant_scan_ms();
         self.constant_ms = constant_ms.unwrap_or(0).into();
-        // Events between two scans are evaluated as in test files, which read once the time has passed.
-        if self.takes_events {
-            self.pass(scan_ms);
-        }
         let machine = self.session.machine();
         if !self.assumed.all_hold(machine, elapsed_ms) {
             return Scanned::Excluded;
@@ -249,9 +245,7 @@ impl<'t> Runner<'t> {
             }
         }
         self.notice();
-        if !self.takes_events {
-            self.pass(scan_ms);
-        }
+        self.pass(scan_ms);
         let broken = self.session.plant().and_then(Plant::collision);
         if let Some(collision) = broken
             && self.task.wants(Kind::Collisions)

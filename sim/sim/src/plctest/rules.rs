@@ -338,8 +338,9 @@ impl Running<'_> {
         Ok(texts.join(", "))
     }
 
-    /// A scan is over, which began at `scan_ms`; the step began at `begin_ms`.
-    pub(super) fn watch(
+    /// Judges what a scan has left, which began at `begin_ms` and takes `scan_ms`: before the time until the next one
+    /// passes, in which inputs change and interrupts are taken.
+    pub(super) fn judge(
         &mut self,
         watch: &mut Watch,
         begin_ms: u32,
@@ -348,19 +349,24 @@ impl Running<'_> {
         if watch.is_idle() {
             return Ok(());
         }
-        let now_ms = self.now_ms();
+        let end_ms = begin_ms.wrapping_add(scan_ms);
         for never in &watch.never {
             if self.holds(&never.all)? {
-                let message = format!("{} at {now_ms} ms", All(self, &never.all));
+                let message = format!("{} at {end_ms} ms", All(self, &never.all));
                 return Err(self.broken(RuleKind::Never, never.line, message));
             }
         }
-        let elapsed_ms = scan_ms.wrapping_sub(std::mem::replace(&mut watch.last_ms, scan_ms));
+        let elapsed_ms = begin_ms.wrapping_sub(std::mem::replace(&mut watch.last_ms, begin_ms));
         for (whenever, deadline) in &mut watch.whenever {
-            self.follow(whenever, deadline, elapsed_ms)?;
+            self.follow(whenever, deadline, (elapsed_ms, end_ms))?;
         }
         let model = Model::get(watch.model);
-        self.follow_stated(&mut watch.stated, model, elapsed_ms)?;
+        self.follow_stated(&mut watch.stated, model, (elapsed_ms, end_ms))
+    }
+
+    /// Looks for what a step that began at `begin_ms` waits for, once a scan and its time are over.
+    pub(super) fn wait(&mut self, watch: &mut Watch, begin_ms: u32) -> Result<(), Failure> {
+        let now_ms = self.now_ms();
         let mut open = Vec::new();
         for within in std::mem::take(&mut watch.within) {
             let waited_ms = now_ms.wrapping_sub(begin_ms);
@@ -380,7 +386,7 @@ impl Running<'_> {
     }
 
     fn late(&mut self, within: &Within) -> Result<Failure, Failure> {
-        let differences = self.differences_now(&within.all)?;
+        let differences = self.differences_at(&within.all, self.now_ms())?;
         let message = format!(
             "not {} within {} ms: {differences}",
             All(self, &within.all),
@@ -390,11 +396,10 @@ impl Running<'_> {
     }
 
     /// Differences from the expectation, or that it holds too late.
-    fn differences_now(&mut self, all: &[Setting]) -> Result<String, Failure> {
+    fn differences_at(&mut self, all: &[Setting], ms: u32) -> Result<String, Failure> {
         let differences = self.differences(all)?;
-        let now_ms = self.now_ms();
         Ok(match differences.is_empty() {
-            true => format!("it holds at {now_ms} ms"),
+            true => format!("it holds at {ms} ms"),
             false => differences,
         })
     }
@@ -403,7 +408,7 @@ impl Running<'_> {
         &mut self,
         rule: &Whenever,
         deadline: &mut Deadline,
-        elapsed_ms: u32,
+        (elapsed_ms, end_ms): (u32, u32),
     ) -> Result<(), Failure> {
         let state = (self.holds(&rule.when)?, self.holds(&rule.then)?);
         let waited_ms = deadline
@@ -416,8 +421,8 @@ impl Running<'_> {
             0 => "after the same scan".to_string(),
             ms => format!("within {ms} ms"),
         };
-        let since_ms = u64::from(self.now_ms()).saturating_sub(waited_ms);
-        let differences = self.differences_now(&rule.then)?;
+        let since_ms = u64::from(end_ms).saturating_sub(waited_ms);
+        let differences = self.differences_at(&rule.then, end_ms)?;
         let message = format!(
             "{} at {since_ms} ms, but not {} {soon}: {differences}",
             All(self, &rule.when),

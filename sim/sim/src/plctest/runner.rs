@@ -314,6 +314,7 @@ impl Running<'_> {
             let scan_begin_ms = self.now_ms;
             let scan_ms = self.scan(step.scan_ms)?;
             done += 1;
+            self.judge(watch, scan_begin_ms, scan_ms)?;
             for _ in 0..scan_ms {
                 self.now_ms = self.now_ms.wrapping_add(1);
                 self.select(0)?;
@@ -329,7 +330,7 @@ impl Running<'_> {
                 self.move_machine(self.now_ms, &others)?;
                 self.tick()?;
             }
-            self.watch(watch, begin_ms, scan_begin_ms)?;
+            self.wait(watch, begin_ms)?;
             if let Some(tracer) = &mut tracer {
                 tracer.scanned(self)?;
             }

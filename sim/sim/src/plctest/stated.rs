@@ -291,12 +291,12 @@ impl Running<'_> {
         }
     }
 
-    /// A scan is over, which began `elapsed_ms` after the one before.
+    /// A scan is over, which began `elapsed_ms` after the one before and lasts to `end_ms`.
     pub(super) fn follow_stated(
         &mut self,
         all: &mut [Following],
         model: &'static Model,
-        elapsed_ms: u32,
+        (elapsed_ms, end_ms): (u32, u32),
     ) -> Result<(), Failure> {
         if all.is_empty() {
             return Ok(());
@@ -329,8 +329,8 @@ impl Running<'_> {
                 following.reached = true;
                 continue;
             }
-            let (now_ms, values) = (self.now_ms(), snapshot.values(property));
-            let message = format!("`{text}` at {now_ms} ms: {values}");
+            let values = snapshot.values(property);
+            let message = format!("`{text}` at {end_ms} ms: {values}");
             return Err(self.broken(*kind, *line, message));
         }
         Ok(())

@@ -133,17 +133,22 @@ impl<'m> Session<'m> {
     /// input that changes between two scans has an edge; interrupts by it wait for
     /// [`take_interrupts`](Self::take_interrupts).
     pub fn set(&mut self, target: Target, value: f64) -> Option<()> {
-        let before = self.reading(target);
-        self.hal.advance_to(self.now_ms as u32);
-        crate::set(&mut self.machine, &mut self.hal, target, value)?;
-        if let Target::Bit(DeviceClass::X, number) = target
-            && self.has_scanned
-            && before != Some(Reading::Bit(value != 0.0))
-        {
-            self.machine
-                .input_edge(&mut *self.hal, number, value != 0.0);
+        if let Target::Bit(DeviceClass::X, number) = target {
+            return self.set_input(number, value != 0.0);
         }
-        Some(())
+        self.hal.advance_to(self.now_ms as u32);
+        crate::set(&mut self.machine, &mut self.hal, target, value)
+    }
+
+    /// Turns an input terminal X on or off, as [`set`](Self::set) does; `None` if the model does not have it.
+    pub fn set_input(&mut self, number: u32, on: bool) -> Option<()> {
+        let before = self.machine.bit(Class::X, number)?;
+        if self.has_scanned && before != on {
+            self.hal.advance_to(self.now_ms as u32);
+            // As in test files, what an edge runs sees X as it was.
+            self.machine.input_edge(&mut *self.hal, number, on);
+        }
+        self.machine.set_bit(Class::X, number, on)
     }
 
     /// Sets a device, and gives it the same value before and after each scan until it is released.

@@ -277,3 +277,43 @@ fn cases_that_share_a_program_share_its_module() {
     assert_eq!((suite.len(), suite.modules().len()), (3, 1));
     assert!(!outcomes(&text).contains("expected"), "{}", outcomes(&text));
 }
+
+#[test]
+fn what_must_hold_over_time_is_judged_before_interrupts_of_the_time_after_a_scan() {
+    // The routine runs each ten milliseconds, between two scans; each scan begins D0 anew.
+    let text = r#"
+model = "fx3u"
+topic = "t"
+program = """
+EI
+LD M8000
+MOV K1 D0
+FEND
+I610
+LD M8000
+MOV K2 D0
+IRET
+END
+"""
+[[case]]
+name = "after a scan"
+always = "D0 = 1"
+never = ["D0 = 2", { D0 = 2 }]
+whenever = [{ when = { X000 = 1 }, then = { D0 = 1 } }]
+[[case.step]]
+set = { X000 = 1 }
+scans = 3
+expect = { D0 = 2 }
+[[case]]
+name = "after its time"
+[[case.step]]
+until = { D0 = 2 }
+at_most_ms = 10
+[[case.step]]
+within = [{ ms = 10, expect = { D0 = 2 } }]
+"#;
+    insta::assert_snapshot!(outcomes(text), @r"
+    t.plctest.toml:16: after a scan [interp]: passed
+    t.plctest.toml:25: after its time [interp]: passed
+    ");
+}
