@@ -133,7 +133,7 @@ impl File {
 
 fn of_input(input: Input) -> String {
     match input {
-        Input::Device(key, bit) | Input::Shown(key, bit) => of_bit(key, bit),
+        Input::Device(key, bit) | Input::Shown(_, key, bit) => of_bit(key, bit),
         Input::Time(digit, bit) => {
             let digit = match digit {
                 Digit::Hundreds => "hundreds",

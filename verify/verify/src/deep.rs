@@ -390,7 +390,7 @@ fn oscillation(module: &Module, number: u32, trace: Trace) -> Option<Trace> {
                 return None;
             }
             run.scan(scan)?;
-            let on = run.machine.bit(Class::Y, number)?;
+            let on = run.machine().bit(Class::Y, number)?;
             let same_inputs = n > 0 && trace.scans[n - 1].set == scan.set;
             let changed = same_inputs && before == Some(!on);
             changes = if changed { changes + 1 } else { 0 };

@@ -1,8 +1,8 @@
 //! Runs on the other engines: emitted C and Rust must do what the interpreter does.
 
 use crate::model::{CounterPart, Key, TimerPart};
-use crate::replay::{Run, start};
-use crate::search::Trace;
+use crate::replay::{Run, STOP_MS, in_order, start, until_next_ms};
+use crate::search::{Scan, Trace};
 use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
 use rungc_models::runs::is_counter32;
@@ -10,6 +10,7 @@ use rungc_rt::{Class, Plc};
 use rungc_sim::engines::{Engine, EngineError};
 use rungc_sim::protocol::{Answer, Request};
 use rungc_syntax::DeviceClass;
+use std::collections::BTreeMap;
 
 /// Difference between an engine and the interpreter.
 #[derive(thiserror::Error, Debug)]
@@ -48,27 +49,21 @@ pub fn compare(
     for (key, value) in start(module, trace) {
         set(engine, key, value)?;
     }
-    let mut now_ms = 0u32;
+    let mut there = There {
+        engine,
+        takes_events: module.takes_events(),
+        now_ms: 0,
+        inputs: BTreeMap::new(),
+    };
     for (n, scan) in trace.scans.iter().enumerate() {
-        if scan.restart {
-            engine.execute(Request::Run(false))?;
-            engine.execute(Request::Scan { now_ms, scan_us: 0 })?;
-            engine.execute(Request::Run(true))?;
-        }
-        for (&key, &value) in &scan.set {
-            set(engine, key, value)?;
-        }
-        now_ms = now_ms.wrapping_add(scan.ms);
-        engine.execute(Request::Scan {
-            now_ms,
-            scan_us: scan.scan_time * 100,
-        })?;
+        there.scan(scan, n == 0)?;
         run.scan(scan);
+        let engine = &mut *there.engine;
         let asked = devices
             .iter()
             .filter_map(|&device| Some((device, question(device)?)));
         for ((class, number), request) in asked {
-            let (here, there) = (value(&run.machine, request), engine.execute(request)?);
+            let (here, there) = (value(run.machine(), request), engine.execute(request)?);
             if let (Some(here), Answer::Value(there)) = (here, there)
                 && here != there
             {
@@ -82,6 +77,58 @@ pub fn compare(
         }
     }
     Ok(())
+}
+
+/// A program on another engine.
+struct There<'e> {
+    engine: &'e mut dyn Engine,
+    takes_events: bool,
+    now_ms: u32,
+    /// States of input terminals.
+    inputs: BTreeMap<u32, bool>,
+}
+
+impl There<'_> {
+    /// Executes a scan as [`Run::scan`] does.
+    fn scan(&mut self, scan: &Scan, is_first: bool) -> Result<(), EngineError> {
+        self.pass(until_next_ms(scan))?;
+        if scan.restart {
+            self.engine.execute(Request::Run(false))?;
+            self.execute(STOP_MS * 1000)?;
+            self.pass(STOP_MS)?;
+            self.engine.execute(Request::Run(true))?;
+        }
+        for (key, value) in in_order(&scan.set) {
+            if let Key::Bit(DeviceClass::X, number) = key {
+                let (on, before) = (value != 0, self.inputs.insert(number, value != 0));
+                if self.takes_events && !is_first && before.unwrap_or(false) != on {
+                    self.engine.execute(Request::Edge(number, on))?;
+                }
+            }
+            set(self.engine, key, value)?;
+        }
+        self.execute(scan.scan_time * 100)
+    }
+
+    fn execute(&mut self, scan_us: u32) -> Result<(), EngineError> {
+        let now_ms = self.now_ms;
+        self.engine.execute(Request::Scan { now_ms, scan_us })?;
+        Ok(())
+    }
+
+    /// Lets time pass, as test files do.
+    fn pass(&mut self, ms: u32) -> Result<(), EngineError> {
+        if !self.takes_events {
+            self.now_ms = self.now_ms.wrapping_add(ms);
+            return Ok(());
+        }
+        for _ in 0..ms {
+            self.now_ms = self.now_ms.wrapping_add(1);
+            self.engine.execute(Request::Tick(self.now_ms))?;
+            self.engine.execute(Request::Interrupts)?;
+        }
+        Ok(())
+    }
 }
 
 /// Gives a piece of memory its value, as on the interpreter.

@@ -38,6 +38,7 @@ mod tests {
     use rungc_ir::Module;
     use rungc_ir::passes::simplify;
     use rungc_lower::compile::{CompileOptions, compile};
+    use rungc_models::ModelId;
     use rungc_sim::property::{Condition, Property};
     use rungc_syntax::DeviceClass;
 
@@ -53,14 +54,26 @@ mod tests {
     }
 
     fn compiled(list: &str, observe: Vec<(DeviceClass, u32)>) -> Module {
+        compiled_for(None, list, observe).unwrap_or_else(|why| panic!("{list}: {why}"))
+    }
+
+    /// A program for a model, or the usual one; else why it does not compile.
+    pub(crate) fn compiled_for(
+        model: Option<ModelId>,
+        list: &str,
+        observe: Vec<(DeviceClass, u32)>,
+    ) -> Result<Module, String> {
         let program = rungc_frontend::read_text("program.il", list).program;
         let options = CompileOptions {
+            model,
             optimise: false,
             observe,
             ..CompileOptions::default()
         };
-        let mut module = compile(&program, &options).module.unwrap();
+        let compiled = compile(&program, &options);
+        let why = format!("{:?}", compiled.diagnostics);
+        let mut module = compiled.module.ok_or(why)?;
         simplify(&mut module);
-        module
+        Ok(module)
     }
 }

@@ -1,5 +1,7 @@
 //! From a program and a property to a verdict.
 
+#[cfg(test)]
+mod events;
 mod scans;
 mod ways;
 
@@ -176,8 +178,8 @@ pub(crate) trait Question {
     /// Runs a trace on the interpreter; after how many of its scans what is searched for has happened.
     fn happens(&self, trace: &Trace) -> Option<usize>;
 
-    /// Steps of a scan of such a run.
-    fn scan_steps(&self) -> usize;
+    /// Steps of such a run, for the limit of a search.
+    fn steps(&self, trace: &Trace) -> usize;
 
     /// Returns true if the answer depends on something that the logic leaves open.
     fn leaves_open(&self) -> bool {
@@ -216,8 +218,8 @@ impl Question for OfProperty<'_> {
         replay::replay(self.module, self.property, &self.options.assumed, trace)
     }
 
-    fn scan_steps(&self) -> usize {
-        self.module.exprs.len()
+    fn steps(&self, trace: &Trace) -> usize {
+        replay::steps(self.module, trace)
     }
 
     fn leaves_open(&self) -> bool {
@@ -237,7 +239,7 @@ impl Question for OfProperty<'_> {
 pub fn decide(module: &Module, property: &Property, options: &Options) -> Decision {
     let limit = options.limit();
     let (encoder, system) = system(module, property, options);
-    let mut gaps = gaps_of(&system, &encoder.gaps);
+    let mut gaps = gaps_of(&system, &encoder);
     let in_cone = |key: &Key| {
         let mut inputs = system.inputs.iter();
         inputs.any(|(_, input)| matches!(input, Input::Device(of, _) if of == key))
@@ -291,7 +293,7 @@ const LONGEST: u64 = 4096;
 
 /// Returns after how many scans of a trace what is searched for has happened, and counts its steps.
 fn shown(question: &dyn Question, limit: &Limit, trace: &Trace) -> Option<usize> {
-    limit.charge(trace.scans.len() * question.scan_steps());
+    limit.charge(question.steps(trace));
     question.happens(trace)
 }
 
@@ -512,8 +514,8 @@ mod tests {
             None
         }
 
-        fn scan_steps(&self) -> usize {
-            1
+        fn steps(&self, trace: &Trace) -> usize {
+            trace.scans.len()
         }
     }
 

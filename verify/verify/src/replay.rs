@@ -4,13 +4,14 @@ use crate::effort::Limit;
 use crate::model::device_of;
 use crate::model::{CounterPart, Key, TimerPart};
 use crate::search::{Scan, Trace};
-use rungc_interp::{Machine, Saved, rt_class};
+use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
 use rungc_ir::node::{Action, Stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
 use rungc_sim::property::{Condition, Monitor, Property, Reading, Watcher};
 use rungc_sim::record::Seen;
+use rungc_sim::session::{self, Session};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 
@@ -64,22 +65,44 @@ pub(crate) fn start(module: &Module, trace: &Trace) -> impl Iterator<Item = (Key
     })
 }
 
-/// A program that is given a trace.
+/// A program that is given a trace. It runs as test files and [`Session`] run it: inputs that change between two scans
+/// have edges, and where the program takes the time between scans, that passes in milliseconds, with interrupts.
 pub struct Run<'m> {
-    /// The program.
-    pub machine: Machine<'m>,
-    hal: VirtualHal,
+    session: Session<'m>,
     has_hardware: bool,
-    now_ms: u32,
+    /// True if something happens between two scans.
+    takes_events: bool,
     first: bool,
 }
 
 /// State of a [`Run`] between two scans.
 pub(crate) struct Moment {
-    machine: Saved,
-    hal: Option<Box<VirtualHal>>,
-    now_ms: u32,
+    session: session::Moment,
     first: bool,
+}
+
+/// What is set at the same time, in the order in which test files set it, by names: edges of inputs find what is set
+/// before them.
+pub(crate) fn in_order(set: &BTreeMap<Key, i64>) -> impl Iterator<Item = (Key, i64)> {
+    use DeviceClass::{X, Y, Z};
+    let part = |key: Key| match key {
+        Key::Bit(X, _) => 1,
+        Key::Bit(Y, _) | Key::Word(Z, _) => 2,
+        _ => 0,
+    };
+    let all = (0..3).flat_map(move |n| set.iter().filter(move |(key, _)| part(**key) == n));
+    all.map(|(&key, &value)| (key, value))
+}
+
+/// Milliseconds of STOP before a scan after which RUN begins: the shortest step of a test.
+pub(crate) const STOP_MS: u32 = 1;
+
+/// Milliseconds from a scan to the STOP or the scan after it. STOP takes some of the time, and a scan before it, too.
+pub(crate) fn until_next_ms(next: &Scan) -> u32 {
+    match next.restart {
+        true => next.ms.saturating_sub(STOP_MS).max(1),
+        false => next.ms,
+    }
 }
 
 /// Returns true if a program uses the buffer memory of modules, ports or pulses, so that what is around the PLC
@@ -102,46 +125,48 @@ impl<'m> Run<'m> {
     /// Before the first scan of a trace.
     pub fn new(module: &'m Module, trace: &Trace) -> Self {
         let mut run = Run {
-            machine: Machine::new(module),
-            hal: VirtualHal::new(),
+            session: Session::new(module, VirtualHal::new()),
             has_hardware: has_hardware(module),
-            now_ms: 0,
+            takes_events: module.takes_events() || module.takes_time(),
             first: true,
         };
         run.begin_with(start(module, trace));
         run
     }
 
+    /// The program.
+    pub fn machine(&self) -> &Machine<'m> {
+        self.session.machine()
+    }
+
     /// Gives latched memory its initial values.
     pub(crate) fn begin_with(&mut self, start: impl Iterator<Item = (Key, i64)>) {
+        let (machine, hal) = self.session.parts();
         for (key, value) in start {
-            set(&mut self.machine, &mut self.hal, key, value);
+            set(machine, hal, key, value);
         }
     }
 
     /// State now, without what is around a program that uses none of it.
     pub(crate) fn save(&self) -> Moment {
-        let hal = self.has_hardware.then(|| Box::new(self.hal.clone()));
         Moment {
-            machine: self.machine.save(),
-            hal,
-            now_ms: self.now_ms,
+            session: match self.has_hardware {
+                true => self.session.save(),
+                false => self.session.save_without_hardware(),
+            },
             first: self.first,
         }
     }
 
     /// Comes back to a state.
     pub(crate) fn restore(&mut self, moment: &Moment) {
-        self.machine.restore(&moment.machine);
-        if let Some(hal) = &moment.hal {
-            self.hal.clone_from(hal);
-        }
-        (self.now_ms, self.first) = (moment.now_ms, moment.first);
+        self.session.restore(&moment.session);
+        self.first = moment.first;
     }
 
     /// Returns true if a scan begins before the program lets it: it asks for scans of constant length (M8039).
     pub fn is_early(&self, scan: &Scan) -> bool {
-        let least = self.machine.constant_scan_ms().unwrap_or(0);
+        let least = self.machine().constant_scan_ms().unwrap_or(0);
         !self.first && !scan.restart && scan.ms < least.into()
     }
 
@@ -151,36 +176,72 @@ impl<'m> Run<'m> {
         self.execute(scan)
     }
 
-    /// STOP for a moment, and RUN, if the scan begins so.
+    /// Lets the time before the scan pass, with STOP at its end and RUN, if the scan begins so.
     fn begin(&mut self, scan: &Scan) {
+        self.pass(until_next_ms(scan));
         if scan.restart {
-            self.machine.set_running(false);
-            self.machine.scan(&mut self.hal, self.now_ms, 0);
-            self.machine.set_running(true);
+            self.session.set_running(false);
+            self.session.scan(STOP_MS.into());
+            self.pass(STOP_MS);
+            self.session.set_running(true);
             self.first = true;
         }
     }
 
-    fn execute(&mut self, scan: &Scan) -> Option<u32> {
-        for (&key, &value) in &scan.set {
-            set(&mut self.machine, &mut self.hal, key, value);
+    /// Lets time pass.
+    fn pass(&mut self, ms: u32) {
+        match self.takes_events {
+            true => self.session.pass(ms.into()),
+            false => self.session.skip(ms.into()),
         }
-        self.now_ms = self.now_ms.wrapping_add(scan.ms);
-        self.machine
-            .scan(&mut self.hal, self.now_ms, scan.scan_time * 100);
+    }
+
+    fn execute(&mut self, scan: &Scan) -> Option<u32> {
+        if self.takes_events {
+            in_order(&scan.set).for_each(|(key, value)| self.set(key, value));
+        } else {
+            let (machine, hal) = self.session.parts();
+            for (&key, &value) in &scan.set {
+                set(machine, hal, key, value);
+            }
+        }
+        self.session.scan_us(scan.scan_time * 100);
         let first = std::mem::take(&mut self.first);
-        let stops = self.machine.last_error().stop != Stop::No;
+        let stops = self.machine().last_error().stop != Stop::No;
         (!stops).then_some(if first { 0 } else { scan.ms })
+    }
+
+    /// Sets a piece of memory before a scan; an input has an edge.
+    fn set(&mut self, key: Key, value: i64) {
+        if let Key::Bit(DeviceClass::X, number) = key {
+            // What the model does not have is not set.
+            let _ = self.session.set_input(number, value != 0);
+        } else {
+            let (machine, hal) = self.session.parts();
+            set(machine, hal, key, value);
+        }
     }
 
     /// The program as it is after the last scan.
     pub fn seen(&self) -> Seen<'_> {
-        Seen {
-            machine: &self.machine,
-            hal: &self.hal,
-            plant: None,
-        }
+        self.session.seen()
     }
+}
+
+/// Steps of a millisecond between two scans that passes by itself.
+pub(crate) const MILLISECOND: usize = 4;
+
+/// Steps of a run, for the limit of a search.
+pub(crate) fn steps(module: &Module, trace: &Trace) -> usize {
+    let scans = trace.scans.len() * module.exprs.len();
+    if !module.takes_time() {
+        return scans;
+    }
+    let ms: u64 = trace.scans.iter().map(|scan| u64::from(scan.ms)).sum();
+    scans
+        + usize::try_from(ms)
+            .unwrap_or(usize::MAX)
+            .saturating_mul(MILLISECOND)
 }
 
 /// Runs a trace; after how many of its scans what is searched for has happened, with all assumptions kept until then.
@@ -200,10 +261,10 @@ pub fn replay(
             (watcher, monitor) = (Watcher::new(property), Monitor::new(assumed));
         }
         let elapsed = run.scan(scan)?;
-        if !monitor.all_hold(&run.machine, elapsed) {
+        if !monitor.all_hold(run.machine(), elapsed) {
             return None;
         }
-        if watcher.happened(&run.machine, elapsed) {
+        if watcher.happened(run.machine(), elapsed) {
             return Some(n + 1);
         }
     }
@@ -382,23 +443,22 @@ pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change>
         .collect();
     let mut changes: Vec<Change> = Vec::new();
     let mut known: BTreeMap<Key, i64> = BTreeMap::new();
-    let mut now_ms = 0u64;
     for (n, scan) in trace.scans.iter().enumerate() {
-        now_ms += u64::from(scan.ms);
         let mut set_now = BTreeMap::new();
         run.begin(scan);
         for (&key, &value) in &scan.set {
             // What the program has overwritten is set again. A module is there as soon as its memory is set, if only
             // to 0.
-            let before = get(&run.machine, key).or_else(|| known.get(&key).copied());
+            let before = get(run.machine(), key).or_else(|| known.get(&key).copied());
             known.insert(key, value);
             if before != Some(value) {
                 set_now.insert(key, value);
             }
         }
+        let at_ms = run.session.now_ms();
         run.execute(scan);
         const USUAL_MS: u32 = 10;
-        let scan_ms = trace.scans.get(n + 1).map_or(USUAL_MS, |next| next.ms);
+        let scan_ms = trace.scans.get(n + 1).map_or(USUAL_MS, until_next_ms);
         match changes.last_mut() {
             Some(last) if set_now.is_empty() && last.scan_ms == scan_ms && !scan.restart => {
                 last.scans += 1;
@@ -407,7 +467,7 @@ pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change>
                 start: Vec::new(),
                 first: n,
                 scans: 1,
-                at_ms: now_ms,
+                at_ms,
                 restart: scan.restart,
                 scan_ms,
                 set: set_now.iter().filter_map(named).collect(),
@@ -420,7 +480,7 @@ pub fn story(module: &Module, property: &Property, trace: &Trace) -> Vec<Change>
         first.start = start;
     }
     if let Some(last) = changes.last_mut() {
-        last.after = property.values(&run.machine);
+        last.after = property.values(run.machine());
     }
     changes
 }

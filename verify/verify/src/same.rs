@@ -13,7 +13,7 @@ use crate::aig::Lit;
 use crate::model::{Gap, Key, Names, World, gaps_of};
 use crate::proof::{Formula, Method, Posed, Proof};
 use crate::prove::{Answer, Options, Question, Verdict, search};
-use crate::replay::Run;
+use crate::replay::{self, Run};
 use crate::search::Trace;
 use product::Product;
 use rungc_ir::Module;
@@ -86,7 +86,7 @@ pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
             names: &names,
             options,
         };
-        let gaps = gaps_of(&posed.system, &product.encoder().gaps);
+        let gaps = gaps_of(&posed.system, product.encoder());
         let Answer { verdict, proof } = search(&question, &options.world, &posed, &limit);
         Output {
             number,
@@ -167,10 +167,10 @@ impl Question for Differs<'_> {
             }
             let mut both = [&*old, &*new].into_iter().zip(&mut kept);
             // Of programs that both stop, nothing follows.
-            if !both.all(|(run, kept)| kept.all_hold(&run.machine, elapsed[0].unwrap_or(0))) {
+            if !both.all(|(run, kept)| kept.all_hold(run.machine(), elapsed[0].unwrap_or(0))) {
                 return None;
             }
-            let output = |run: &Run| run.machine.output(self.number);
+            let output = |run: &Run| run.machine().output(self.number);
             if output(old) != output(new) {
                 return Some(n + 1);
             }
@@ -178,8 +178,9 @@ impl Question for Differs<'_> {
         None
     }
 
-    fn scan_steps(&self) -> usize {
-        self.modules.iter().map(|module| module.exprs.len()).sum()
+    fn steps(&self, trace: &Trace) -> usize {
+        let steps = self.modules.map(|module| replay::steps(module, trace));
+        steps.iter().sum()
     }
 
     /// Returns false: timers must expire at the same time in both.

@@ -44,6 +44,12 @@ pub enum Between {
     Edge(u32, bool),
     /// Interrupt routines run.
     Interrupts,
+    /// Something other than the program sets a device.
+    Set(Key, i64),
+    /// The PLC goes to STOP, in which it executes a scan of this many milliseconds.
+    Stop(u32),
+    /// It goes back to RUN.
+    Run,
 }
 
 /// A run: what it begins with, and its scans.

@@ -1,6 +1,6 @@
 //! Runs as cases of test files: a case states the property, so that it fails as long as the program violates it.
 
-use crate::replay::{Change, Setting, story};
+use crate::replay::{Change, STOP_MS, Setting, story};
 use crate::search::Trace;
 use rungc_ir::Module;
 use rungc_sim::engines::Interpreter;
@@ -88,7 +88,7 @@ pub fn case(name: &str, module: &Module, property: &Property, trace: &Trace) -> 
 /// A step of a case, without what comes after it.
 pub fn step(text: &mut String, change: &Change) {
     if change.restart {
-        let _ = writeln!(text, "[[case.step]]\nmode = \"stop\"");
+        let _ = writeln!(text, "[[case.step]]\nmode = \"stop\"\nscan_ms = {STOP_MS}");
     }
     let _ = writeln!(text, "[[case.step]]");
     if change.restart {

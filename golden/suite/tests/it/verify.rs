@@ -123,7 +123,7 @@ impl Run<'_> {
         let machine = &mut self.machine;
         let bit_of = |value: i64, bit: usize| value >> bit & 1 == 1;
         let before = |input: Input| match input {
-            Input::Device(key, bit) | Input::Shown(key, bit) => {
+            Input::Device(key, bit) | Input::Shown(_, key, bit) => {
                 seen(machine, key).map(|value| bit_of(value, bit))
             }
             Input::Time(digit, bit) => Some(bit_of(

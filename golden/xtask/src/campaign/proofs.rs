@@ -1,8 +1,8 @@
 //! `cargo xtask campaign --proofs`: random questions to the prover, and attacks on its answers.
 //!
 //! Whatever is proved is attacked on the interpreter, within what the verdict assumes; runs that violate a property are
-//! replayed; files for other model checkers are evaluated along runs. The same number of a program gives the same
-//! programs, questions and attacks on every computer; only which questions are answered in time depends on it.
+//! replayed, also as tests; files for other model checkers are evaluated along runs. The same number of a program gives
+//! the same programs, questions and attacks on every computer; only which questions are answered in time depends on it.
 
 mod attack;
 mod draw;
@@ -11,6 +11,7 @@ mod minimise;
 mod near;
 mod planted;
 mod run;
+mod shown;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -20,7 +21,7 @@ use attack::search;
 use draw::{Asked, FORMS, Pools, Question, question};
 use minimise::Refutation;
 use near::levels;
-use run::{Goal, replay};
+use run::{Goal, replay, run_of};
 use rungc_golden::operands::BUFFER_WORDS;
 use rungc_golden::rng::Rng;
 use rungc_ir::Module;
@@ -30,7 +31,7 @@ use rungc_verify::model::{Encoder, Key, TimerPart, device_of};
 use rungc_verify::prove::{self, Options, Verdict, Why, decide};
 use rungc_verify::same::compare;
 use rungc_verify::search::Trace;
-use rungc_verify::steered::{Levels, Outside, Run, Step};
+use rungc_verify::steered::{Levels, Outside, Run};
 use rungc_verify::system::System;
 use rungc_verify::vacuous::dead_end;
 use std::collections::BTreeSet;
@@ -302,9 +303,14 @@ impl Examination {
             }
             Verdict::Found(trace) => {
                 counts.violated += 1;
-                match confirmed(module, goal, &options, outside, trace) {
-                    Ok(()) => counts.replayed += 1,
-                    Err(why) => self.wrong(&asked.text, &why),
+                let written = &self.question.written;
+                let as_test = shown::contradiction(written, module, asked, trace);
+                match confirmed(module, goal, &options, outside, trace)
+                    .err()
+                    .or(as_test)
+                {
+                    None => counts.replayed += 1,
+                    Some(why) => self.wrong(&asked.text, &why),
                 }
             }
             Verdict::Undecided(Why::Contradiction { scans }) => {
@@ -348,7 +354,7 @@ impl Examination {
             let lives = search(&[module], Goal::Lives(60), &assumed, &calm, (seed, 300));
             let mut runs: Vec<Run> = lives.run.into_iter().collect();
             if let Verdict::Found(trace) = verdict {
-                runs.push(run_of(trace));
+                runs.push(run_of(&[module], trace));
             }
             self.results.files.0 += 1;
             for run in runs {
@@ -454,7 +460,7 @@ impl Examination {
                         &pair,
                         Goal::Differs(&numbers),
                         &options.assumed,
-                        &run_of(trace),
+                        &run_of(&pair, trace),
                     );
                     match happens {
                         Some(_) => counts.replayed += 1,
@@ -535,27 +541,6 @@ fn buffer_words(question: &Question) -> u32 {
     if is_read { BUFFER_WORDS } else { 0 }
 }
 
-/// A run that the prover has found.
-fn run_of(trace: &Trace) -> Run {
-    let set = |set: &std::collections::BTreeMap<Key, i64>| {
-        set.iter().map(|(&key, &value)| (key, value)).collect()
-    };
-    Run {
-        start: set(&trace.start),
-        steps: trace
-            .scans
-            .iter()
-            .map(|scan| Step {
-                stop: scan.restart,
-                set: set(&scan.set),
-                ms: scan.ms,
-                scan_us: scan.scan_time * 100,
-                ..Step::default()
-            })
-            .collect(),
-    }
-}
-
 /// Confirms that a run is one that may happen, and that the event happens in its last scan.
 fn confirmed(
     module: &Module,
@@ -564,7 +549,7 @@ fn confirmed(
     outside: &Outside,
     trace: &Trace,
 ) -> Result<(), String> {
-    let run = run_of(trace);
+    let run = run_of(&[module], trace);
     let scans = run.steps.len();
     let strange = run.start.iter().find(|(key, value)| {
         *value != 0 && device_of(*key).is_some() && !outside.latched.contains(key)
@@ -572,24 +557,24 @@ fn confirmed(
     if let Some((key, _)) = strange {
         return Err(format!("{key:?} has a value at power-on\n{run}"));
     }
-    let mut set = run.steps.iter().flat_map(|step| &step.set);
+    let mut set = trace.scans.iter().flat_map(|scan| &scan.set);
+    // Partners at serial ports write, too.
     let is_outside = |key: &Key| {
-        matches!(key, Key::Buffer(..) | Key::Bit(X, _)) || outside.written.contains(key)
+        matches!(key, Key::Buffer(..) | Key::Bit(X, _))
+            || outside.written.contains(key)
+            || module.has_ports()
     };
-    if let Some((key, _)) = set.find(|(key, _)| !outside.events && !is_outside(key)) {
+    if let Some((key, _)) = set.find(|(key, _)| !is_outside(key)) {
         return Err(format!(
             "{key:?} is set, which only the program writes\n{run}"
         ));
     }
-    let late = run
-        .steps
-        .iter()
-        .skip(1)
-        .find(|step| step.ms == 0 || step.ms > options.world.scan_ms);
-    if let Some(step) = late {
+    let mut scans_after_first = trace.scans.iter().skip(1);
+    let late = scans_after_first.find(|scan| scan.ms == 0 || scan.ms > options.world.scan_ms);
+    if let Some(scan) = late {
         return Err(format!(
             "a scan begins {} ms after the one before\n{run}",
-            step.ms
+            scan.ms
         ));
     }
     match replay(&[module], goal, &options.assumed, &run) {

@@ -12,6 +12,11 @@ impl Forced {
         self.0.iter().copied()
     }
 
+    /// Returns true if no device is forced.
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// Checks that no other name of the same devices is forced.
     pub(super) fn check(&self, target: Target) -> Result<(), String> {
         match self.iter().find(|(other, _)| overlap(*other, target)) {

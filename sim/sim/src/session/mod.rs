@@ -206,6 +206,9 @@ impl<'m> Session<'m> {
     }
 
     fn give_forced(&mut self) {
+        if self.forced.is_empty() {
+            return;
+        }
         self.hal.advance_to(self.now_ms as u32);
         for (target, value) in self.forced.iter() {
             // It exists: it was set when it was forced.

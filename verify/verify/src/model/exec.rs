@@ -65,7 +65,7 @@ impl Encoder<'_> {
     }
 
     /// Returns true if a statement writes nothing but zeros.
-    fn is_clearing(&self, stmt: &Stmt) -> bool {
+    pub(super) fn is_clearing(&self, stmt: &Stmt) -> bool {
         let zero = |id: ExprId| {
             matches!(
                 self.module.expr(id),

@@ -1,8 +1,9 @@
 //! What is not modelled exactly: free values, each with a note that the verdict quotes.
 
-use super::{Encoder, Input};
+use super::{Encoder, Input, Writer, device_of};
 use crate::bits::Bits;
 use crate::system::System;
+use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 
 /// Something that is not modelled exactly, so that any value is assumed to be possible.
@@ -19,19 +20,58 @@ pub struct Gap {
 /// Name of devices in which pulse outputs show what they do, which are any value in each scan.
 const SHOWN: &str = "special devices of pulse outputs";
 
+/// Devices that are named where many change between two scans.
+const NAMED: usize = 4;
+
 /// Everything that a question leaves open, of all that its logic does.
-pub(crate) fn gaps_of(system: &System, all: &[Gap]) -> BTreeSet<Gap> {
-    let inputs = system.inputs.iter();
-    let gaps = inputs.filter_map(|(_, input)| match *input {
-        Input::Gap(number) => all.get(number).cloned(),
-        Input::Shown(..) => Some(Gap {
-            step: None,
-            is_instruction: false,
-            what: SHOWN.to_string(),
-        }),
-        _ => None,
-    });
-    gaps.collect()
+pub(crate) fn gaps_of(system: &System, encoder: &Encoder) -> BTreeSet<Gap> {
+    let (mut gaps, mut by_events, mut received) =
+        (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
+    let apart = |what: String| Gap {
+        step: None,
+        is_instruction: false,
+        what,
+    };
+    for (_, input) in &system.inputs {
+        match *input {
+            Input::Gap(number) => gaps.extend(encoder.gaps.get(number).cloned()),
+            Input::Shown(Writer::Pulses, ..) => {
+                gaps.insert(apart(SHOWN.to_string()));
+            }
+            Input::Shown(Writer::Events, key, _) => {
+                by_events.insert(device_of(key));
+            }
+            Input::Device(key, _) if encoder.is_received(key) => {
+                received.insert(device_of(key));
+            }
+            Input::Device(..) | Input::Time(..) | Input::ScanTime(_) | Input::Restart => {}
+        }
+    }
+    let between = "what interrupt routines, edges of inputs and time do between two scans";
+    for (what, devices) in [
+        (between, by_events),
+        ("what serial ports receive", received),
+    ] {
+        if !devices.is_empty() {
+            let names = names_of(devices.into_iter().flatten());
+            gaps.insert(apart(format!("{what}{names}")));
+        }
+    }
+    gaps
+}
+
+/// Some devices in brackets; nothing if there are none.
+fn names_of(devices: impl Iterator<Item = (DeviceClass, u32)>) -> String {
+    let mut names: Vec<String> = devices
+        .map(|(class, number)| class.number(number).to_string())
+        .collect();
+    let more = names.len().saturating_sub(NAMED);
+    names.truncate(NAMED);
+    match (names.is_empty(), more) {
+        (true, _) => String::new(),
+        (false, 0) => format!(" ({})", names.join(", ")),
+        (false, more) => format!(" ({} and {more} more)", names.join(", ")),
+    }
 }
 
 impl Encoder<'_> {

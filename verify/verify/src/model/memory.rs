@@ -1,7 +1,7 @@
 //! The memory of a program: which there is, how it begins, and how it is read and written.
 
 use super::shared::Signature;
-use super::{CounterPart, Digit, Encoder, Input, Key, Time, TimerPart};
+use super::{CounterPart, Digit, Encoder, Input, Key, Time, TimerPart, Writer};
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, signed, unsigned};
 use rungc_ir::node::{Action, Expr, FunctionKind, Place, SetEntry, Stmt};
@@ -10,7 +10,7 @@ use rungc_ir::walk::{called_functions, callees, statements};
 use rungc_models::runs::is_counter32;
 use rungc_rt::{Register, Relay};
 use rungc_syntax::DeviceClass;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// An operand that may reach more devices than this is not modelled.
 const REACH: u32 = 256;
@@ -305,6 +305,28 @@ impl Encoder<'_> {
     /// Finds what changes between two scans: what input edges write, what interrupts write, since a host may take them
     /// then, and what ports and pulse outputs show.
     pub(super) fn find_external(&mut self) {
+        self.find_events();
+        let of_events = self.external.clone();
+        let received = self.received();
+        self.external.extend(&received);
+        let mut shown: BTreeMap<Key, Writer> = BTreeMap::new();
+        if self.module.sends_pulses() {
+            let pulses = self.of_outputs();
+            self.external.extend(&pulses);
+            shown.extend(pulses.into_iter().map(|key| (key, Writer::Pulses)));
+        }
+        shown.extend(of_events.into_iter().map(|key| (key, Writer::Events)));
+        // An instruction that refreshes inputs takes them from outside.
+        let from_outside = |key: &Key| match key {
+            Key::Bit(DeviceClass::X, _) => true,
+            _ => is_settable(*key) && received.contains(key),
+        };
+        shown.retain(|key, _| !from_outside(key));
+        self.shown = shown;
+    }
+
+    /// Finds what edges of inputs, interrupts and the passing of time write.
+    fn find_events(&mut self) {
         let module = self.module;
         for (flag, i) in module.flags.iter().zip(0..) {
             if flag.period_ms.is_some() || flag.pulses_end.is_some() {
@@ -316,13 +338,27 @@ impl Encoder<'_> {
                 self.external.insert(Key::Cell(i));
             }
         }
-        let by_host = |kind: &FunctionKind| {
-            matches!(
-                kind,
-                FunctionKind::InputEdge { .. } | FunctionKind::TakeInterrupts
-            )
-        };
-        let mut open = self.functions_of(by_host);
+        let is_edge = |kind: &FunctionKind| matches!(kind, FunctionKind::InputEdge { .. });
+        self.written_from(self.functions_of(is_edge), &mut |this, stmt, keys| {
+            if !this.is_clearing(stmt) {
+                this.by_edges.extend(&keys);
+            }
+            this.external.extend(keys);
+        });
+        let takes = |kind: &FunctionKind| *kind == FunctionKind::TakeInterrupts;
+        self.written_from(self.functions_of(takes), &mut |this, _, keys| {
+            this.external.extend(keys);
+        });
+    }
+
+    /// Reports the memory that each statement of these functions, and of those that they call, writes. What flags they
+    /// set are events.
+    fn written_from(
+        &mut self,
+        mut open: Vec<usize>,
+        report: &mut dyn FnMut(&mut Self, &Stmt, Vec<Key>),
+    ) {
+        let module = self.module;
         let mut seen = BTreeSet::new();
         while let Some(i) = open.pop() {
             if seen.insert(i) {
@@ -330,71 +366,64 @@ impl Encoder<'_> {
                 open.extend(callees(body));
                 statements(body, &mut |stmt| {
                     if let Stmt::Do(action) = stmt {
-                        self.add_external(action);
-                    }
-                });
-            }
-        }
-        if module.has_ports() {
-            self.external.extend(self.of_ports());
-            let called = called_functions(module);
-            for (function, _) in module
-                .functions
-                .iter()
-                .zip(called)
-                .filter(|(_, called)| *called)
-            {
-                statements(&function.body, &mut |stmt| {
-                    if let Stmt::Do(action @ Action::Call(call)) = stmt {
-                        let needs = call.function.needs();
-                        if needs.port || needs.names_port || needs.any_port || needs.can {
-                            self.add_external(action);
+                        if let Action::SetFlag(flag, _) = action {
+                            self.events.insert(flag.0);
                         }
+                        let keys = self.written_between(action);
+                        report(self, stmt, keys);
                     }
                 });
             }
-        }
-        if module.sends_pulses() {
-            let shown = self.of_outputs().into_iter();
-            self.shown = shown.filter(|key| !self.external.contains(key)).collect();
-            self.external.extend(&self.shown);
         }
     }
 
-    /// Adds the memory written by an action that is executed between two scans.
-    fn add_external(&mut self, action: &Action) {
-        let keys = self.of_operands(action);
-        self.external.extend(keys);
+    /// What partners at serial ports write, and what instructions give it to.
+    fn received(&self) -> BTreeSet<Key> {
+        let module = self.module;
+        let mut keys = BTreeSet::new();
+        if !module.has_ports() {
+            return keys;
+        }
+        keys.extend(self.of_ports());
+        let called = called_functions(module);
+        for (function, _) in module
+            .functions
+            .iter()
+            .zip(called)
+            .filter(|(_, called)| *called)
+        {
+            statements(&function.body, &mut |stmt| {
+                if let Stmt::Do(action @ Action::Call(call)) = stmt {
+                    let needs = call.function.needs();
+                    if needs.port || needs.names_port || needs.any_port || needs.can {
+                        keys.extend(self.written_between(action));
+                    }
+                }
+            });
+        }
+        keys
+    }
+
+    /// The memory written by an action that is executed between two scans, but for flags.
+    fn written_between(&self, action: &Action) -> Vec<Key> {
+        let mut keys = self.of_operands(action);
         match *action {
-            Action::SetFlag(flag, _) => {
-                self.events.insert(flag.0);
-            }
-            Action::SetCell(cell, _) => {
-                self.external.insert(Key::Cell(cell.0));
-            }
+            Action::SetCell(cell, _) => keys.push(Key::Cell(cell.0)),
             Action::SetEntry(SetEntry { table, .. }) => {
                 let length = self.module.tables[table].length;
-                self.external
-                    .extend((0..length).map(|i| Key::Entry(table.0, i)));
+                keys.extend((0..length).map(|i| Key::Entry(table.0, i)));
             }
-            Action::Edge(ref edge) => {
-                self.external.insert(Key::Edge(edge.memory.0));
-            }
-            Action::Call(ref call) => {
-                let keys = self.of_call(call);
-                self.external.extend(keys);
-            }
+            Action::Edge(ref edge) => keys.push(Key::Edge(edge.memory.0)),
+            Action::Call(ref call) => keys.extend(self.of_call(call)),
             Action::Fetch(ref fetch) => {
-                self.external.insert(Key::Cell(fetch.value.0));
-                self.external.extend(self.of_errors());
+                keys.push(Key::Cell(fetch.value.0));
+                keys.extend(self.of_errors());
             }
-            Action::Send(_) | Action::Fault { .. } => self.external.extend(self.of_errors()),
-            Action::Clear { latched } => {
-                let keys = self.cleared(latched);
-                self.external.extend(keys);
-            }
+            Action::Send(_) | Action::Fault { .. } => keys.extend(self.of_errors()),
+            Action::Clear { latched } => keys.extend(self.cleared(latched)),
             _ => {}
         }
+        keys
     }
 
     /// The memory that M8031 or M8032 clears.

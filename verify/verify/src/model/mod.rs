@@ -5,6 +5,7 @@
 //! not modelled exactly becomes free ([`Encoder::fresh`]), with a note that the verdict quotes. The rules of
 //! [`rungc_ir::node`] hold; `golden` compares each transition with the interpreter's.
 
+mod between;
 mod blocks;
 mod calls;
 mod eval;
@@ -19,6 +20,7 @@ mod shown;
 mod tests;
 mod timing;
 
+pub(crate) use between::HostCall;
 pub use gaps::Gap;
 pub(crate) use gaps::gaps_of;
 pub use memory::device_of;
@@ -110,8 +112,8 @@ pub enum Key {
 pub enum Input {
     /// A bit of a device that something other than the program sets before the scan.
     Device(Key, usize),
-    /// A bit of a device that the PLC's pulse outputs write between two scans.
-    Shown(Key, usize),
+    /// A bit of memory that the PLC writes between two scans, by itself: no run sets it.
+    Shown(Writer, Key, usize),
     /// A bit of the time since the scan before: its hundreds, tens and ones of milliseconds.
     Time(Digit, usize),
     /// A bit of the time that the scan before took (D8010).
@@ -120,6 +122,15 @@ pub enum Input {
     Restart,
     /// A bit of a value that is not modelled: a number of [`Encoder::gaps`].
     Gap(usize),
+}
+
+/// A part of the PLC that writes memory between two scans.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Writer {
+    /// Pulse outputs, which show what they do.
+    Pulses,
+    /// Interrupt routines, edges of inputs, and the passing of time.
+    Events,
 }
 
 /// A part of a time in milliseconds.
@@ -206,8 +217,10 @@ pub struct Encoder<'m> {
     clears: bool,
     /// Memory that may be written from outside the scan, between two scans.
     external: BTreeSet<Key>,
-    /// The part of it that pulse outputs write, and nothing else.
-    shown: BTreeSet<Key>,
+    /// The part of it that the PLC writes by itself, and serial partners do not.
+    shown: BTreeMap<Key, Writer>,
+    /// The part of it that edges of inputs write, other than to clear it.
+    by_edges: BTreeSet<Key>,
     /// Flags that something outside the scan sets at any time.
     events: BTreeSet<u32>,
     /// Timers whose values something looks at or writes; `None`: all.
@@ -239,6 +252,8 @@ pub struct Encoder<'m> {
     restart: Option<Lit>,
     /// Parts shared with another program.
     shared: Option<Shared>,
+    /// Of a program that is compared: what each function that runs between two scans makes of memory.
+    between: Vec<HostCall>,
     /// Probes for the search for events that can never happen.
     pub probes: Option<Probes>,
 }
@@ -320,7 +335,8 @@ impl<'m> Encoder<'m> {
             written: BTreeSet::new(),
             clears: false,
             external: BTreeSet::new(),
-            shown: BTreeSet::new(),
+            shown: BTreeMap::new(),
+            by_edges: BTreeSet::new(),
             events: BTreeSet::new(),
             exact_timers: None,
             temps: vec![None; module.temps.len()].into(),
@@ -343,6 +359,7 @@ impl<'m> Encoder<'m> {
             restart: None,
             world,
             shared,
+            between: Vec::new(),
             probes,
         };
         encoder.find_memory();
@@ -361,6 +378,9 @@ impl<'m> Encoder<'m> {
         encoder.network = None;
         encoder.state.insert(Key::First, vec![Lit::FALSE]);
         encoder.lose();
+        if encoder.is_compared() {
+            encoder.run_between();
+        }
         // What properties add is in no network.
         encoder.network = None;
         encoder
@@ -509,7 +529,8 @@ impl<'m> Encoder<'m> {
             Key::Bit(class, _) | Key::Word(class, _) => matches!(class, M | S | D | R | ER | V | Z),
             _ => true,
         };
-        let written = self.written.contains(&key) || self.is_unset(key);
+        let written =
+            self.written.contains(&key) || self.by_edges.contains(&key) || self.is_unset(key);
         asked && memory::is_settable(key) && !written
     }
 
@@ -522,9 +543,18 @@ impl<'m> Encoder<'m> {
             && !self.is_named_free(key)
     }
 
-    /// Returns true if pulse outputs alone set a device before each scan, so that nothing else gives it a value.
-    fn is_shown(&self, key: Key) -> bool {
-        self.shown.contains(&key) && !self.is_named_free(key) && !self.is_unwritten(key)
+    /// The part of the PLC that alone sets a piece of memory before each scan, so that nothing else gives it a value.
+    pub(crate) fn shown_by_plc(&self, key: Key) -> Option<Writer> {
+        let writer = self.shown.get(&key).copied();
+        writer.filter(|_| !self.is_named_free(key) && !self.is_unwritten(key))
+    }
+
+    /// Returns true if partners at serial ports set a device before each scan.
+    pub(crate) fn is_received(&self, key: Key) -> bool {
+        self.module.has_ports()
+            && self.external.contains(&key)
+            && !self.shown.contains_key(&key)
+            && !matches!(key, Key::Bit(DeviceClass::X, _))
     }
 
     /// Returns true if something other than the program sets a device before each scan.
@@ -539,6 +569,16 @@ impl<'m> Encoder<'m> {
     pub(crate) fn is_named_free(&self, key: Key) -> bool {
         let is_free = |device| self.world.free.contains(&device);
         memory::is_settable(key) && memory::device_of(key).is_some_and(is_free)
+    }
+
+    /// The input terminals whose edges run something, in order.
+    pub(crate) fn edges(&self) -> impl Iterator<Item = u32> {
+        let functions = self.module.functions.iter();
+        let inputs = functions.filter_map(|function| match function.kind {
+            FunctionKind::InputEdge { input, .. } => Some(input),
+            _ => None,
+        });
+        BTreeSet::from_iter(inputs).into_iter()
     }
 
     /// Memory that counts as an input beside terminals: unwritten memory, and that named by [`World::free`].
@@ -586,9 +626,9 @@ impl<'m> Encoder<'m> {
             let init = self.initial(key);
             for (bit, (&now, &next)) in before.iter().zip(after).enumerate() {
                 if free(key) {
-                    let input = match self.is_shown(key) {
-                        true => Input::Shown(key, bit),
-                        false => Input::Device(key, bit),
+                    let input = match self.shown_by_plc(key) {
+                        Some(writer) => Input::Shown(writer, key, bit),
+                        None => Input::Device(key, bit),
                     };
                     system.inputs.push((now, input));
                     continue;

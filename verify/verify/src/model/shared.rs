@@ -73,6 +73,9 @@ pub struct Shared {
     results: FxHashMap<(Signature, Vec<Lit>), Bits>,
 }
 
+/// Bit of numbers without a counterpart.
+const NOWHERE: u32 = 1 << 31;
+
 /// Names of one program's memory in another. Devices have the same names in both.
 #[derive(Clone, Default)]
 pub struct Names(pub FxHashMap<Key, Key>);
@@ -80,7 +83,6 @@ pub struct Names(pub FxHashMap<Key, Key>);
 impl Names {
     /// Name of a memory there. Numbers without a counterpart have other meanings there.
     pub fn name(&self, key: Key) -> Key {
-        const NOWHERE: u32 = 1 << 31;
         match (self.0.get(&key), key) {
             (Some(&other), _) => other,
             (None, Key::Edge(n)) => Key::Edge(n | NOWHERE),
@@ -172,6 +174,18 @@ impl Encoder<'_> {
         self.shared.as_ref().map_or(key, |shared| shared.name(key))
     }
 
+    /// Name of a flag that an event sets in the program beside which this one is executed: of none of its flags if it
+    /// may be another event.
+    fn event_name(&self, key: Key) -> Key {
+        let other = self.shared.as_ref().filter(|shared| shared.names.is_some());
+        match (other, key) {
+            (Some(shared), Key::Flag(n)) if shared.begins_as(key).is_none() => {
+                Key::Flag(n | NOWHERE)
+            }
+            _ => self.shared_name(key),
+        }
+    }
+
     /// The result of something that is not modelled: free, but the same as in the other program if that applies it to
     /// the same.
     pub(super) fn applied(
@@ -185,7 +199,7 @@ impl Encoder<'_> {
             return self.fresh(width, what);
         }
         let signature = match signature {
-            Signature::Event(key) => Signature::Event(self.shared_name(key)),
+            Signature::Event(key) => Signature::Event(self.event_name(key)),
             Signature::Call(text, key) => Signature::Call(text, self.shared_name(key)),
             other => other,
         };

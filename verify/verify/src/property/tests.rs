@@ -482,11 +482,11 @@ fn agree(module: &Module, random: &mut Random) -> usize {
         for (n, scan) in trace.scans.iter().enumerate() {
             let elapsed = run.scan(scan).unwrap();
             now += elapsed;
-            seen.push(Seen::of(&run.machine, now));
+            seen.push(Seen::of(run.machine(), now));
             let [a, b, c] = written.each_ref().map(|of| (of.holds)(&seen, n));
             history.push((now, a, b, c));
             let on_bits = violated[n] >> lane & 1 == 1;
-            let on_values = watcher.happened(&run.machine, elapsed);
+            let on_values = watcher.happened(run.machine(), elapsed);
             let by_words = is_violated(&property, &history);
             let context = format!(
                 "{property:?}\n{:?}\nscan {n}: {history:?}",

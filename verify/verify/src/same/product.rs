@@ -3,12 +3,13 @@
 use crate::aig::Lit;
 use crate::bits::Bits;
 use crate::effort::Limit;
-use crate::model::{Encoder, Key, Names, Shared, World, device_of};
+use crate::model::{Encoder, HostCall, Key, Names, Shared, World, Writer, device_of};
 use crate::proof::Formula;
 use crate::property::{self, OUTPUTS_OFF};
 use crate::sat::{Answer, Solver};
 use crate::system::System;
 use rungc_ir::Module;
+use rungc_ir::node::FlagId;
 use rungc_models::runs::is_special;
 use rungc_sim::property::Condition;
 use rungc_syntax::DeviceClass;
@@ -18,7 +19,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Two programs that are executed at the same time with the same inputs.
 ///
 /// Memory that is not [`apart`](Self::apart) has the same value in both before every scan: it had it at first, and from
-/// equal memory a scan makes equal memory, which was shown of all of it together.
+/// equal memory a scan makes equal memory, and so does each function between two scans, which was shown of all of it
+/// together.
 pub(super) struct Product<'m> {
     old: Encoder<'m>,
     new: Encoder<'m>,
@@ -26,6 +28,14 @@ pub(super) struct Product<'m> {
     apart: BTreeSet<Key>,
     /// Memory set from outside the programs, by the old program's names.
     free: BTreeSet<Key>,
+    /// The part of it that one of the programs writes between two scans, and nothing else.
+    shown: BTreeSet<Key>,
+}
+
+/// What a function between two scans makes of a memory; as before if the program has no such function.
+fn made_of<'e>(encoder: &'e Encoder, function: Option<&'e HostCall>, key: Key) -> Option<&'e Bits> {
+    let made = function.and_then(|function| function.made.as_ref()?.get(&key));
+    made.or_else(|| encoder.before(key))
 }
 
 impl<'m> Product<'m> {
@@ -53,11 +63,17 @@ impl<'m> Product<'m> {
                 .collect();
             let of_new = named[1].iter().copied().filter(|&key| new.is_free(key));
             free.extend(of_new.map(|key| names.name(key)));
+            let is_shown = |of: &Encoder, key: &Key| of.shown_by_plc(*key).is_some();
+            let mut shown: BTreeSet<Key> = named[0].clone();
+            shown.retain(|key| is_shown(&old, key));
+            let of_new = named[1].iter().filter(|key| is_shown(&new, key));
+            shown.extend(of_new.map(|key| names.name(*key)));
             let product = Product {
                 old: old.clone(),
                 new,
                 apart: apart.clone(),
                 free,
+                shown,
             };
             let differing = product.differing(names, limit);
             if differing.is_empty() {
@@ -67,28 +83,17 @@ impl<'m> Product<'m> {
         }
     }
 
-    /// Memory that begins a scan equal and may not end it so.
+    /// Memory that begins a scan equal, and may not end it so or not stay so until the next one.
     fn differing(&self, names: &Names, limit: &Limit) -> Vec<Key> {
-        let old: BTreeMap<Key, &Bits> = self
-            .old
-            .memory()
-            .map(|(key, _, after)| (key, after))
-            .collect();
         let mut solver = None;
-        let mut differing = Vec::new();
+        let mut differing = self.environment_apart(names);
         let mut aig = self.new.aig.clone();
-        for (key, _, after) in self.new.memory() {
-            let name = names.name(key);
-            let Some(&other) = old.get(&name).filter(|_| self.is_shared(name)) else {
-                continue;
-            };
-            if other == after {
+        for (name, old, new) in self.pairs(names) {
+            if old == new {
                 continue;
             }
-            let same =
-                other.len() == after.len() && self.old.initial(name) == self.new.initial(key);
-            let same = same && {
-                let equal = aig.equal(other, after);
+            let same = old.len() == new.len() && {
+                let equal = aig.equal(old, new);
                 let solver = solver.get_or_insert_with(|| {
                     let mut solver = Solver::new(limit);
                     for &holds in self.old.constraints().iter().chain(self.new.constraints()) {
@@ -107,30 +112,103 @@ impl<'m> Product<'m> {
         // Equal logic may begin differently.
         let shared = self.new.memory().map(|(key, ..)| (key, names.name(key)));
         let begins = shared.filter(|(key, name)| {
-            old.contains_key(name)
-                && self.is_shared(*name)
+            self.old.after(*name).is_some()
+                && self.is_checked(*name)
                 && self.old.initial(*name) != self.new.initial(*key)
         });
         differing.extend(begins.map(|(_, name)| name));
         differing
     }
 
-    /// Formula of the induction over all memory: a scan that begins with equal values ends with a difference.
+    /// Memory of both programs that is checked to be equal, by its name in the old one, with what each makes of it: in
+    /// a scan, and in each function between two scans.
+    fn pairs(&self, names: &Names) -> Vec<(Key, &Bits, &Bits)> {
+        let mut pairs = Vec::new();
+        let new_keys = self.new.memory().map(|(key, ..)| (names.name(key), key));
+        let new_keys: BTreeMap<Key, Key> = new_keys.collect();
+        for (&name, &key) in &new_keys {
+            if let Some((old, new)) = self.old.after(name).zip(self.new.after(key))
+                && self.is_checked(name)
+            {
+                pairs.push((name, old, new));
+            }
+        }
+        let [of_old, of_new] = [&self.old, &self.new].map(|encoder| encoder.between());
+        let kinds = of_old.iter().chain(of_new).map(|one| &one.kind);
+        for (n, kind) in kinds.enumerate() {
+            let [old, new] = [of_old, of_new].map(|all| all.iter().find(|one| one.kind == *kind));
+            // Functions of both are in both lists.
+            if n >= of_old.len() && old.is_some() {
+                continue;
+            }
+            for (&name, &key) in new_keys.iter().filter(|(name, _)| self.is_checked(**name)) {
+                let old = made_of(&self.old, old, name);
+                let new = made_of(&self.new, new, key);
+                pairs.extend(old.zip(new).map(|(old, new)| (name, old, new)));
+            }
+        }
+        pairs
+    }
+
+    /// Memory that something between two scans writes which is not known to be the same in both: pulse outputs, if
+    /// programs use them differently, periods of time, and functions that are not modelled.
+    fn environment_apart(&self, names: &Names) -> Vec<Key> {
+        let [old_module, new_module] = [self.old.module(), self.new.module()];
+        let in_old = |key: &Key| self.old.after(*key).is_some() && self.is_checked(*key);
+        let mut between = [&self.old, &self.new]
+            .into_iter()
+            .flat_map(|of| of.between());
+        let of_new = self.new.written_between_scans();
+        let written = of_new.map(|key| names.name(key));
+        let written = written.chain(self.old.written_between_scans());
+        if between.any(|one| one.made.is_none()) {
+            return written.filter(in_old).collect();
+        }
+        let same_pulses = self.is_equal(Key::Outer);
+        let by_pulses = |key: &Key| {
+            let mut of = [&self.old, &self.new].into_iter();
+            of.any(|of| of.shown_by_plc(*key) == Some(Writer::Pulses))
+        };
+        let mut apart: Vec<Key> = match same_pulses {
+            true => Vec::new(),
+            false => written.filter(by_pulses).filter(in_old).collect(),
+        };
+        for (flag, at) in new_module.flags.iter().zip(0..) {
+            let name = names.name(Key::Flag(at));
+            let Key::Flag(other) = name else { continue };
+            let Some(other) = old_module.flags.get(FlagId(other)) else {
+                continue;
+            };
+            let same = flag.period_ms == other.period_ms
+                && flag.pulses_end == other.pulses_end
+                && (flag.pulses_end.is_none() || same_pulses);
+            if !same && in_old(&name) {
+                apart.push(name);
+            }
+        }
+        apart
+    }
+
+    /// Formula of the induction over all memory: a scan that begins with equal values ends with a difference, or what
+    /// runs between two scans makes one of them.
     pub fn apart(&self, names: &Names) -> Formula {
         let mut aig = self.new.aig.clone();
         let mut all = [self.old.constraints(), self.new.constraints()].concat();
         let mut differs = Vec::new();
-        for (key, _, after) in self.new.memory() {
-            let name = names.name(key);
-            if let Some(other) = self.old.after(name).filter(|_| self.is_shared(name)) {
-                differs.push(!aig.equal(other, after));
-            }
+        for (_, old, new) in self.pairs(names) {
+            differs.push(!aig.equal(old, new));
         }
         all.push(aig.any(differs));
         Formula { aig, all }
     }
 
-    /// Returns true if a memory, by its name in the old program, is checked to be equal.
+    /// Returns true if a memory, by its name in the old program, is checked to be equal: also one that has any value
+    /// before a scan, if what runs between scans writes it.
+    fn is_checked(&self, name: Key) -> bool {
+        self.is_shared(name) || self.shown.contains(&name) && !self.apart.contains(&name)
+    }
+
+    /// Returns true if a memory, by its name in the old program, is checked to be equal and follows from that before.
     fn is_shared(&self, name: Key) -> bool {
         !self.apart.contains(&name) && !self.free.contains(&name)
     }

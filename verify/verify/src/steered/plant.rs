@@ -11,6 +11,7 @@ use rungc_ir::Module;
 use rungc_ir::node::Expr;
 use rungc_rt::Program;
 use rungc_sim::property::{Condition, Monitor, Property, Watcher};
+use rungc_syntax::DeviceClass;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A program that follows steps of a run, and what is searched for in it.
@@ -22,8 +23,9 @@ pub(crate) struct Plant<'a> {
     watcher: Watcher<'a>,
     monitor: Monitor<'a>,
     limit: Limit,
-    /// Steps of a scan that count for the limit.
+    /// Steps of a scan, and of a millisecond before it, that count for the limit.
     steps: usize,
+    steps_of_ms: usize,
 }
 
 impl<'a> Plant<'a> {
@@ -44,6 +46,10 @@ impl<'a> Plant<'a> {
             monitor: Monitor::new(assumed),
             limit: limit.clone(),
             steps: module.exprs.len() / EXECUTED.0 + EXECUTED.1,
+            steps_of_ms: match module.takes_time() {
+                true => replay::MILLISECOND,
+                false => 0,
+            },
         }
     }
 
@@ -87,7 +93,8 @@ impl<'a> Subject for Plant<'a> {
     }
 
     fn step(&mut self, step: &Step) -> State {
-        self.limit.charge(self.steps);
+        self.limit
+            .charge(self.steps + self.steps_of_ms * step.ms as usize);
         if step.stop {
             self.forget();
         }
@@ -98,10 +105,10 @@ impl<'a> Subject for Plant<'a> {
         let Some(elapsed) = self.run.scan(&scan) else {
             return State::Over;
         };
-        if !self.monitor.all_hold(&self.run.machine, elapsed) {
+        if !self.monitor.all_hold(self.run.machine(), elapsed) {
             return State::Over;
         }
-        match self.watcher.happened(&self.run.machine, elapsed) {
+        match self.watcher.happened(self.run.machine(), elapsed) {
             true => State::Happened,
             false => State::Lives,
         }
@@ -118,7 +125,7 @@ impl<'a> Subject for Plant<'a> {
     }
 
     fn constant_scan_ms(&self) -> u32 {
-        self.run.machine.constant_scan_ms().unwrap_or(0).into()
+        self.run.machine().constant_scan_ms().unwrap_or(0).into()
     }
 
     fn programs(&self) -> usize {
@@ -126,11 +133,11 @@ impl<'a> Subject for Plant<'a> {
     }
 
     fn value(&self, _: usize, key: Key) -> i64 {
-        value_of(&self.run.machine, key)
+        value_of(self.run.machine(), key)
     }
 
     fn distance(&self) -> f64 {
-        distance(self.property, &self.run.machine)
+        distance(self.property, self.run.machine())
     }
 }
 
@@ -148,22 +155,32 @@ pub(crate) struct Surroundings {
 /// Levels beyond this count as this one.
 const FARTHEST: u32 = 5;
 
+/// Level of inputs whose edges run something, where that may lead to the event.
+const EDGES: u32 = 1;
+
 impl Surroundings {
     /// Those of a program, as far as a property depends on them.
     pub fn new(encoder: &Encoder, system: &System, scan_ms: u32) -> Self {
         let mut written = BTreeSet::from_iter(encoder.opened());
-        let terminal = |key: &Key| matches!(key, Key::Bit(rungc_syntax::DeviceClass::X, _));
+        let terminal = |key: &Key| matches!(key, Key::Bit(DeviceClass::X, _));
         written.extend(encoder.memory().map(|(key, ..)| key).filter(terminal));
+        let edges = encoder
+            .edges()
+            .map(|number| Key::Bit(DeviceClass::X, number));
+        written.extend(edges);
         let mut near = levels(system);
         near.values_mut()
             .for_each(|level| *level = FARTHEST.min(*level));
         // What is not modelled may depend on anything.
-        let gaps = gaps_of(system, &encoder.gaps);
+        let gaps = gaps_of(system, encoder);
         let is_open = gaps.iter().any(|gap| gap.what != AFTER_STOP);
         if is_open {
             let devices = encoder.memory().filter_map(|(key, ..)| device_of(key));
             for device in devices {
                 near.entry(device).or_insert(FARTHEST);
+            }
+            for number in encoder.edges() {
+                near.entry((DeviceClass::X, number)).or_insert(EDGES);
             }
         }
         let is_near = |key: &Key| device_of(*key).is_some_and(|of| near.contains_key(&of));
@@ -227,7 +244,7 @@ fn levels(system: &System) -> Levels {
                     next.push(system.latches[latch].next.node());
                     system.latches[latch].key
                 }
-                (None, Some(&(Input::Device(key, _) | Input::Shown(key, _)))) => key,
+                (None, Some(&(Input::Device(key, _) | Input::Shown(_, key, _)))) => key,
                 _ => continue,
             };
             if let Some(device) = device_of(key) {

@@ -1,14 +1,17 @@
 //! Written tests of random violated programs.
 
 use super::{Names, case, outcomes, quoted};
+use crate::effort::Limit;
 use crate::model::World;
 use crate::property::tests::{any, pick};
 use crate::prove::{Options, system};
 use crate::random::{Lanes, Random};
 use crate::replay::replay;
 use crate::search::Trace;
-use crate::tests::observing;
+use crate::steered::{Plant, Steered, Surroundings};
+use crate::tests::{compiled_for, observing};
 use rungc_ir::Module;
+use rungc_models::ModelId;
 use rungc_sim::property::{Condition, Property, parse};
 use rungc_syntax::DeviceClass::{self, C, D, M, S, T, Y};
 use std::collections::BTreeSet;
@@ -177,6 +180,98 @@ fn a_written_test_is_read_and_fails_on_its_program() {
         violated += 1;
     }
     assert!(violated > 200, "{violated} violated");
+}
+
+/// A program with routines that run between scans: on edges, periods of time and counts.
+fn with_routines(model: ModelId, random: &mut Random) -> String {
+    let mut list = "EI\n".to_string();
+    let count = 1 + random.below(3);
+    list.extend((0..count).map(|_| rung(random)));
+    if random.below(3) > 0 {
+        let compares = [
+            "DHSCS K2 C235 Y003",
+            "DHSCR K3 C235 Y003",
+            "DHSCS D10 C235 M6",
+            "DHSCS K2 C235 I010",
+            "DHSZ K1 K3 C235 Y004",
+        ];
+        let known = if model == ModelId::Fx1n { 3 } else { 5 };
+        let compare = pick(&compares[..known], random);
+        list.push_str(&format!("LD M8000\nOUT C235 K3\n{compare}\n"));
+        list.push_str("LDD> C235 K1\nOUT Y005\nLD C235\nRST C235\n");
+    }
+    if random.below(3) == 0 {
+        list.push_str("LD M8173\nOUT Y006\nLD X007\nRST M8173\n");
+    }
+    list.push_str("FEND\n");
+    let pointers: &[&[&str]] = match model {
+        ModelId::Fx1n => &[&["I101", "I100"], &["I201", "I200"]],
+        ModelId::Hm => &[&["I000"], &["I100", "I101"], &["I610", "I615"], &["I010"]],
+        _ => &[
+            &["I101", "I100"],
+            &["I201", "I200"],
+            &["I610", "I615"],
+            &["I010"],
+        ],
+    };
+    for pointers in pointers {
+        if random.below(2) == 0 || list.contains(" I010") && pointers.contains(&"I010") {
+            let pointer = pick(pointers, random);
+            list.push_str(&format!("{pointer}\n{}IRET\n", rung(random)));
+        }
+    }
+    list + "END\n"
+}
+
+/// A run by chance on the interpreter.
+fn found_there(module: &Module, property: &Property, options: &Options) -> Option<Trace> {
+    let (encoder, system) = system(module, property, options);
+    let surroundings = Surroundings::new(&encoder, &system, options.world.scan_ms);
+    let plant = Plant::new(module, property, &[], &Limit::none());
+    let (outside, watched) = (surroundings.outside, surroundings.watched);
+    let mut search = Steered::new(plant, outside, watched, (1, 64));
+    let trace = search.search(&|scans| scans > 200)?.trace();
+    assert!(replay(module, property, &[], &trace).is_some(), "{trace:?}");
+    Some(trace)
+}
+
+#[test]
+fn a_run_with_routines_between_scans_happens_as_a_test() {
+    let mut random = Random::new();
+    for model in [ModelId::Fx1n, ModelId::Fx3u, ModelId::H2u, ModelId::Hm] {
+        let (mut violated, mut wrong) = (0, Vec::new());
+        for _ in 0..100 {
+            let list = with_routines(model, &mut random);
+            let property = property(&mut random);
+            let options = Options {
+                world: World {
+                    free: free(&mut random),
+                    scan_ms: 30,
+                    ..World::default()
+                },
+                ..Options::default()
+            };
+            let conditions = property.conditions().into_iter();
+            let devices = conditions.flat_map(Condition::devices).collect();
+            let Ok(module) = compiled_for(Some(model), &list, devices) else {
+                continue;
+            };
+            let Some(trace) = found_there(&module, &property, &options) else {
+                continue;
+            };
+            let case = case("a run", &module, &property, &trace);
+            let (name, program) = (module.model.name, quoted(&list));
+            let text = format!("topic = \"t\"\nmodel = \"{name}\"\nprogram = {program}\n{case}");
+            let outcomes = outcomes("t.plctest.toml", &text);
+            let outcomes = outcomes.unwrap_or_else(|why| panic!("{why}\n{text}"));
+            violated += 1;
+            if (outcomes == [None]) != property.is_wanted() {
+                wrong.push(format!("{list}\n{case}\n{outcomes:?}\n{options:?}"));
+            }
+        }
+        assert!(wrong.is_empty(), "{}", wrong[0]);
+        assert!(violated > 10, "{model:?}: {violated} violated");
+    }
 }
 
 #[test]

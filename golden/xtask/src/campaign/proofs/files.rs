@@ -235,7 +235,7 @@ pub fn evaluate(
         let values: Vec<bool> = named
             .iter()
             .map(|input| match *input {
-                Some(Input::Device(key, bit) | Input::Shown(key, bit)) => {
+                Some(Input::Device(key, bit) | Input::Shown(_, key, bit)) => {
                     let set = step.set.iter().find(|(of, _)| *of == key);
                     let value = set.map(|(_, value)| *value);
                     let value = value.unwrap_or_else(|| value_of(&rig.plants[0].machine, key));

@@ -4,9 +4,12 @@ use rungc_interp::{Machine, Saved, rt_class};
 use rungc_ir::Module;
 use rungc_rt::{Class, Plc, Program, Stop, VirtualHal};
 use rungc_sim::property::{Condition, Monitor, Property, Watcher};
+use rungc_syntax::DeviceClass::{X, Y, Z};
 use rungc_verify::model::{CounterPart, Key, TimerPart};
 use rungc_verify::replay::has_hardware;
+use rungc_verify::search::{Scan, Trace};
 use rungc_verify::steered::{Between, Run, State, Step, Subject, distance, value_of};
+use std::collections::BTreeMap;
 
 /// Request about runs.
 #[derive(Clone, Copy, Debug)]
@@ -78,38 +81,63 @@ impl<'m> Plant<'m> {
         (self.now_ms, self.first) = (0, true);
     }
 
+    /// Turns the RUN/STOP switch.
+    fn switch(&mut self, running: bool) {
+        self.machine.set_running(running);
+        self.hal.set_running(running);
+    }
+
     /// Executes a scan; the milliseconds since the one before, unless the PLC stops.
     fn step(&mut self, step: &Step) -> Option<u32> {
+        // Where nothing else happens between two scans, STOP takes the last millisecond, and a scan the one before.
+        let is_calm = step.between.is_empty();
+        let ms = match step.stop && is_calm {
+            true => step.ms.max(2),
+            false => step.ms,
+        };
         if step.power {
             self.machine.power_cycle();
             self.hal.restart();
             (self.now_ms, self.first) = (0, true);
         }
         if step.stop {
-            self.machine.set_running(false);
-            self.machine.scan(&mut self.hal, self.now_ms, 0);
-            self.machine.set_running(true);
+            self.switch(false);
+            let stop_ms = if is_calm { ms - 1 } else { 0 };
+            let now_ms = self.now_ms.wrapping_add(stop_ms);
+            self.hal.scan(&mut self.machine, now_ms, 1000);
+            self.switch(true);
             self.first = true;
         }
+        let mut now_ms = self.now_ms;
         for &event in &step.between {
             match event {
                 Between::Tick(ms) => {
-                    let now_ms = self.now_ms.wrapping_add(ms);
+                    now_ms = self.now_ms.wrapping_add(ms);
+                    self.hal.advance_to(now_ms);
                     self.machine.tick(&mut self.hal, now_ms);
                 }
                 Between::Edge(number, level) => {
                     self.machine.input_edge(&mut self.hal, number, level);
                 }
                 Between::Interrupts => self.machine.take_interrupts(&mut self.hal),
+                Between::Set(key, value) => set(&mut self.machine, &mut self.hal, key, value),
+                Between::Stop(ms) => {
+                    self.switch(false);
+                    self.hal.scan(&mut self.machine, now_ms, ms * 1000);
+                }
+                Between::Run => {
+                    self.switch(true);
+                    self.first = true;
+                }
             }
         }
         for &(key, value) in &step.set {
             set(&mut self.machine, &mut self.hal, key, value);
         }
         if !step.power {
-            self.now_ms = self.now_ms.wrapping_add(step.ms);
+            self.now_ms = self.now_ms.wrapping_add(ms);
         }
-        self.machine.scan(&mut self.hal, self.now_ms, step.scan_us);
+        self.hal.scan(&mut self.machine, self.now_ms, step.scan_us);
         let stops = self.machine.last_error().stop != Stop::No || !self.machine.sys().running;
         let elapsed = match std::mem::take(&mut self.first) {
             true => 0,
@@ -178,7 +206,7 @@ impl<'c> Subject for Rig<'_, 'c> {
     }
 
     fn step(&mut self, step: &Step) -> State {
-        if step.power || step.stop {
+        if step.power || step.stop || step.between.contains(&Between::Run) {
             self.forget();
         }
         self.scans += 1;
@@ -275,7 +303,8 @@ pub fn replay(modules: &[&Module], goal: Goal, assumed: &[Condition], run: &Run)
     let mut rig = Rig::new(modules, goal, assumed);
     rig.begin(&run.start);
     for (n, step) in run.steps.iter().enumerate() {
-        if n > 0 && !step.power && !step.stop && step.ms < rig.constant_scan_ms() {
+        let begins = step.power || step.stop || step.between.contains(&Between::Run);
+        if n > 0 && !begins && step.ms < rig.constant_scan_ms() {
             return None;
         }
         match rig.step(step) {
@@ -285,4 +314,76 @@ pub fn replay(modules: &[&Module], goal: Goal, assumed: &[Condition], run: &Run)
         }
     }
     None
+}
+
+/// A run that the prover has found, with all that happens between scans. Where nothing does, devices are set before
+/// scans.
+pub fn run_of(modules: &[&Module], trace: &Trace) -> Run {
+    let takes_events = modules.iter().any(|module| module.takes_events());
+    let mut inputs = BTreeMap::new();
+    let steps = trace.scans.iter().enumerate().map(|(n, scan)| {
+        let plain = Step {
+            ms: if scan.restart {
+                scan.ms.max(2)
+            } else {
+                scan.ms
+            },
+            scan_us: scan.scan_time * 100,
+            ..Step::default()
+        };
+        match takes_events {
+            true => Step {
+                between: between(scan, n == 0, &mut inputs),
+                ..plain
+            },
+            false => Step {
+                stop: scan.restart,
+                set: scan.set.iter().map(|(&key, &value)| (key, value)).collect(),
+                ..plain
+            },
+        }
+    });
+    Run {
+        start: trace
+            .start
+            .iter()
+            .map(|(&key, &value)| (key, value))
+            .collect(),
+        steps: steps.collect(),
+    }
+}
+
+/// Everything that happens before a scan of a found run: time passes, at its end perhaps a millisecond in STOP, and
+/// then devices are set, inputs with edges, in the order of their names.
+fn between(scan: &Scan, is_first: bool, inputs: &mut BTreeMap<u32, bool>) -> Vec<Between> {
+    let mut events = Vec::new();
+    let until_ms = if scan.restart {
+        scan.ms.max(2) - 1
+    } else {
+        scan.ms
+    };
+    for ms in 1..=until_ms {
+        events.extend([Between::Tick(ms), Between::Interrupts]);
+    }
+    if scan.restart {
+        let back = Between::Tick(until_ms + 1);
+        events.extend([Between::Stop(1), back, Between::Interrupts, Between::Run]);
+    }
+    let mut set: Vec<(Key, i64)> = scan.set.iter().map(|(&key, &value)| (key, value)).collect();
+    set.sort_by_key(|(key, _)| match key {
+        Key::Bit(X, _) => 1,
+        Key::Bit(Y, _) | Key::Word(Z, _) => 2,
+        _ => 0,
+    });
+    for (key, value) in set {
+        if let Key::Bit(X, number) = key {
+            let on = value != 0;
+            let before = inputs.insert(number, on).unwrap_or(false);
+            if !is_first && before != on {
+                events.push(Between::Edge(number, on));
+            }
+        }
+        events.push(Between::Set(key, value));
+    }
+    events
 }
