@@ -81,8 +81,7 @@ pub(crate) struct Moment {
     first: bool,
 }
 
-/// What is set at the same time, in the order in which test files set it, by names: edges of inputs find what is set
-/// before them.
+/// Settings of the same time in the order of test files, by names: edges of inputs find those before them.
 pub(crate) fn in_order(set: &BTreeMap<Key, i64>) -> impl Iterator<Item = (Key, i64)> {
     use DeviceClass::{X, Y, Z};
     let part = |key: Key| match key {

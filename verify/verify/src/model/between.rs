@@ -6,7 +6,7 @@ use crate::bits::Bits;
 use rungc_ir::node::FunctionKind;
 use std::collections::BTreeMap;
 
-/// What a function that a host calls between two scans makes of memory.
+/// Effect on memory of a function that a host calls between two scans.
 #[derive(Clone)]
 pub(crate) struct HostCall {
     /// Trigger of the function.
@@ -52,7 +52,7 @@ impl Encoder<'_> {
         self.shared = apart.shared;
     }
 
-    /// What each of these functions does.
+    /// Effects of these functions.
     pub(crate) fn between(&self) -> &[HostCall] {
         &self.between
     }

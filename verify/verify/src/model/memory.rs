@@ -377,7 +377,7 @@ impl Encoder<'_> {
         }
     }
 
-    /// What partners at serial ports write, and what instructions give it to.
+    /// Memory that partners at serial ports write, and operands of the instructions that take it.
     fn received(&self) -> BTreeSet<Key> {
         let module = self.module;
         let mut keys = BTreeSet::new();

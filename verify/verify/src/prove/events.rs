@@ -37,7 +37,7 @@ fn passes(list: &str, case: &str) -> bool {
     outcomes == [None]
 }
 
-/// What happens in these programs and never in the ones beside them, though logic allows it.
+/// Programs with a condition that happens in them and never in their repaired forms, though logic allows it.
 const FOUND: [(&str, &str, &str); 5] = [
     // An edge of an input.
     (

@@ -32,7 +32,7 @@ pub(super) struct Product<'m> {
     shown: BTreeSet<Key>,
 }
 
-/// What a function between two scans makes of a memory; as before if the program has no such function.
+/// Value of a memory after a function between two scans: as before if the program lacks the function.
 fn made_of<'e>(encoder: &'e Encoder, function: Option<&'e HostCall>, key: Key) -> Option<&'e Bits> {
     let made = function.and_then(|function| function.made.as_ref()?.get(&key));
     made.or_else(|| encoder.before(key))

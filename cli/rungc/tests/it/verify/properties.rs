@@ -62,6 +62,8 @@ fn a_property_means_the_same_to_all_commands() {
     let next_scan = "LD M0\nOUT Y000\nLD X000\nOUT M0\nEND\n";
     let same_scan = "LDP X000\nOUT Y000\nEND\n";
     let group = "LD M8000\nMOV K4X000 K4Y000\nEND\n";
+    let counted = "LD M8000\nOUT C235 K9\nDHSCS K2 C235 Y000\nEND\n";
+    let timed = "EI\nLD= D0 K2\nOUT Y000\nFEND\nI620\nLD X001\nINC D0\nIRET\nEND\n";
     let late = "whenever = \"X000\"\nthen = \"Y000\"\nwithin = \"1ms\"";
     let cases = [
         (next_scan, late, true),
@@ -70,6 +72,8 @@ fn a_property_means_the_same_to_all_commands() {
         (same_scan, "always = \"X000 = Y000\"", true),
         (group, "never = \"K4Y000 = 40960\"", true),
         (group, "never = \"K4Y000 < -30000\"", true),
+        (counted, "never = \"Y000\"", true),
+        (timed, "never = \"Y000\"", true),
     ];
     for (program, property, is_violated) in cases {
         let settings = format!("[project]\nprogram = \"p.il\"\n[[property]]\n{property}\n");

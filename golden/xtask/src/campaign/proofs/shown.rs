@@ -9,7 +9,8 @@ use rungc_verify::written::{case, outcomes, quoted};
 /// Registers of the duration of scans: in a run it is any, in a test the time until the next scan.
 const DURATION: [&str; 3] = ["D8010", "D8011", "D8012"];
 
-/// Why the test of a run says something else than the verdict, if it does. What a test file cannot say is not asked.
+/// Contradiction between the test of a run and the verdict, if there is one. Programs that a test file cannot express
+/// have no test.
 pub fn contradiction(
     written: &Written,
     module: &Module,
