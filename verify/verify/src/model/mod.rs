@@ -369,21 +369,26 @@ impl<'m> Encoder<'m> {
             encoder.begin_restart(open);
         }
         encoder.begin_time();
-        encoder.watch_limit = encoder.watch_steps();
+        encoder.execute();
+        encoder
+    }
+
+    /// Executes the scan.
+    fn execute(&mut self) {
+        self.watch_limit = self.watch_steps();
         // A module's first functions are `Begin`, `Main`, `End`.
         for function in 0..3 {
-            encoder.network = None;
-            encoder.function(function, Lit::TRUE);
+            self.network = None;
+            self.function(function, Lit::TRUE);
         }
-        encoder.network = None;
-        encoder.state.insert(Key::First, vec![Lit::FALSE]);
-        encoder.lose();
-        if encoder.is_compared() {
-            encoder.run_between();
+        self.network = None;
+        self.state.insert(Key::First, vec![Lit::FALSE]);
+        self.lose();
+        if self.is_compared() {
+            self.run_between();
         }
         // What properties add is in no network.
-        encoder.network = None;
-        encoder
+        self.network = None;
     }
 
     /// The steps that a scan may repeat for certain before the watchdog ends it.
