@@ -30,6 +30,8 @@ pub(super) struct Product<'m> {
     free: BTreeSet<Key>,
     /// The part of it that one of the programs writes between two scans, and nothing else.
     shown: BTreeSet<Key>,
+    /// Free bits for the pulses of outputs in the old and the new program, which are not known to send the same.
+    pulses: BTreeMap<u32, [Lit; 2]>,
 }
 
 /// Value of a memory after a function between two scans: as before if the program lacks the function.
@@ -68,18 +70,35 @@ impl<'m> Product<'m> {
             shown.retain(|key| is_shown(&old, key));
             let of_new = named[1].iter().filter(|key| is_shown(&new, key));
             shown.extend(of_new.map(|key| names.name(*key)));
-            let product = Product {
+            let mut product = Product {
                 old: old.clone(),
                 new,
                 apart: apart.clone(),
                 free,
                 shown,
+                pulses: BTreeMap::new(),
             };
             let differing = product.differing(names, limit);
             if differing.is_empty() {
+                product.find_pulses();
                 return product;
             }
             apart.extend(differing);
+        }
+    }
+
+    /// Finds the outputs that may send other pulses.
+    fn find_pulses(&mut self) {
+        if self.same_environment() {
+            return;
+        }
+        let modules = [self.old.module(), self.new.module()];
+        let numbers = modules.into_iter().flat_map(|module| &module.pulse_outputs);
+        for &number in BTreeSet::from_iter(numbers) {
+            let what = format!("pulses at {}", DeviceClass::Y.number(number));
+            if let [old, new] = self.new.fresh(2, &what)[..] {
+                self.pulses.insert(number, [old, new]);
+            }
         }
     }
 
@@ -219,8 +238,11 @@ impl<'m> Product<'m> {
         self.is_shared(name) && after(&self.old).is_some() && after(&self.new).is_some()
     }
 
-    /// Returns true if an output is proved to be equal at its terminal, which M8034 switches off.
+    /// Returns true if an output is proved to be equal at its terminal, where pulses show and which M8034 switches off.
     pub(crate) fn is_equal_output(&self, name: Key) -> bool {
+        if matches!(name, Key::Bit(_, number) if self.pulses.contains_key(&number)) {
+            return false;
+        }
         let has_off = self.old.after(OUTPUTS_OFF).is_some();
         self.is_equal(name) && (!has_off || self.is_equal(OUTPUTS_OFF))
     }
@@ -271,16 +293,23 @@ impl<'m> Product<'m> {
         let stops = aig.xor(self.old.running(), self.new.running());
         let run = aig.and(self.old.running(), self.new.running());
         let questions = keys.iter().map(|&key| {
-            let both = [&self.old, &self.new];
-            let [old, new] = both.map(|encoder| {
+            let both = [(&self.old, 0), (&self.new, 1)];
+            let [old, new] = both.map(|(encoder, side)| {
                 let after = |key| encoder.after(key).cloned().unwrap_or_default();
                 let value = after(key);
-                match (key, after(OUTPUTS_OFF).first()) {
-                    (Key::Bit(DeviceClass::Y, _), Some(&off)) => {
-                        value.iter().map(|&on| aig.and(on, !off)).collect()
-                    }
-                    _ => value,
-                }
+                let Key::Bit(DeviceClass::Y, number) = key else {
+                    return value;
+                };
+                let pulse = self
+                    .pulses
+                    .get(&number)
+                    .map_or(Lit::FALSE, |both| both[side]);
+                let off = after(OUTPUTS_OFF).first().copied().unwrap_or(Lit::FALSE);
+                let terminal = value.iter().map(|&image| {
+                    let on = aig.or(image, pulse);
+                    aig.and(on, !off)
+                });
+                terminal.collect()
             });
             let equal = aig.equal(&old, &new);
             let differs = aig.and(run, !equal);
