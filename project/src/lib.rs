@@ -18,7 +18,7 @@ pub mod serve;
 mod template;
 
 use encoding_rs::Encoding;
-use rungc_frontend::{LearnedCodes, Names, ReadOptions};
+use rungc_frontend::{LearnedCodes, Names, ReadOptions, Unsaved};
 use rungc_models::{ModelId, Variant};
 use rungc_syntax::{
     DeviceClass, DeviceRun, Diagnostic, Diagnostics, Index, Source, Span, codes, inputs,
@@ -241,6 +241,14 @@ impl Project {
             io(io::Error::new(io::ErrorKind::InvalidData, why))
         })?;
         Project::parse(path, &text)
+    }
+
+    /// Reads a file, or what an editor has not saved of it.
+    pub fn load_with(path: &Path, unsaved: &Unsaved) -> Result<Project, Error> {
+        match unsaved.get(path) {
+            Some(text) => Project::parse(path, text),
+            None => Project::load(path),
+        }
     }
 
     /// Reads the text of a file. `path` is what it is called, and where its paths begin.

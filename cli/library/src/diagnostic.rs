@@ -92,8 +92,9 @@ impl Diagnostic {
         finding: &Finding,
     ) -> Self {
         let at = |span| program.map(|program| Location::of(program, step_numbers, span));
-        let is_list = program.is_some_and(|program| program.kind.is_list());
-        let fix = finding.fix.as_ref().filter(|_| is_list);
+        let list = program.filter(|program| program.kind.is_list());
+        let fix = finding.fix.clone().zip(list);
+        let fix = fix.map(|(fix, list)| fix.with_line_ends_of(&list.source.text));
         Diagnostic {
             file: named(file),
             code: finding.code,
@@ -113,14 +114,14 @@ impl Diagnostic {
             devices: finding.devices.iter().map(ToString::to_string).collect(),
             help: finding.help.clone(),
             fix: fix.map(|fix| Proposal {
-                title: fix.title.clone(),
+                title: fix.title,
                 certain: fix.certain,
                 edits: fix
                     .edits
-                    .iter()
+                    .into_iter()
                     .map(|edit| Replacement {
                         location: at(edit.span),
-                        text: edit.text.clone(),
+                        text: edit.text,
                     })
                     .collect(),
             }),

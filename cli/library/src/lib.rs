@@ -37,7 +37,9 @@
 
 mod diagnostic;
 mod error;
+pub mod index;
 pub mod location;
+pub mod mistakes;
 pub mod names;
 pub mod other_model;
 mod plc;
@@ -55,6 +57,7 @@ pub use plc::{Plc, Snapshot, Value};
 pub use program::Program;
 pub use project::{Checked, Options, Project};
 pub use rungc_emit::OutFile;
+pub use rungc_frontend::Unsaved;
 pub use rungc_syntax::Severity;
 pub use rungc_why::{How, Why};
 

@@ -7,6 +7,9 @@ use std::path::Path;
 /// Location of a finding.
 #[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
 pub struct Location {
+    /// Bytes of the text, or of the listing that stands for another source.
+    #[serde(skip)]
+    pub span: Span,
     /// First line, 1-based, where the source is a text: an instruction list, or a list export.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<u32>,
@@ -41,6 +44,7 @@ impl Location {
             let (line, column) = program.source.line_col(span.start);
             let (end_line, end_column) = program.source.line_col(span.end);
             return Location {
+                span,
                 line: Some(line),
                 column: Some(column),
                 end_line: Some(end_line),
@@ -59,6 +63,7 @@ impl Location {
         let before = before.checked_sub(1).filter(|_| at.is_none());
         let row = |offset| program.kind.has_rows().then(|| program.source.line(offset));
         Location {
+            span,
             line: row(span.start),
             end_line: row(span.end),
             program: Some(name_within(program)),

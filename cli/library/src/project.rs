@@ -2,7 +2,7 @@
 
 use crate::{Diagnostic, Error, Levels, Names, Program, other_model, settings, unproven};
 use rungc_analysis::resolve::resolve;
-use rungc_frontend::{Read, ReadOptions};
+use rungc_frontend::{Read, ReadOptions, Unsaved};
 use rungc_ladder::{build, svg::Painter, text};
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_models::{Model, Plc};
@@ -24,6 +24,10 @@ pub struct Options {
     pub deny: Vec<&'static str>,
     /// Treat all warnings as errors.
     pub deny_warnings: bool,
+    /// Texts that an editor has not saved: programs, their comments, settings.
+    pub unsaved: Unsaved,
+    /// Leave out the settings, such as those with mistakes.
+    pub without_settings: bool,
 }
 
 /// A program as its author wrote it, with the settings of its `rungc.toml`. A clone is the same project.
@@ -68,13 +72,19 @@ impl Project {
         let path = path.as_ref();
         let given = options.settings.clone();
         let has_own = given.is_none() && path.join(FILE).is_file();
-        let own = has_own.then(|| Settings::load(&path.join(FILE)));
+        let load = |path: &Path| Settings::load_with(path, &options.unsaved);
+        let own = has_own.then(|| load(&path.join(FILE)));
         let file = settings::program_in(path, own.transpose()?.as_ref())?;
         let settings = given.or_else(|| Settings::find(&file));
-        let settings = settings.map(|path| Settings::load(&path)).transpose()?;
+        let settings = settings.filter(|_| !options.without_settings);
+        let settings = settings.map(|path| load(&path)).transpose()?;
+        let reading = ReadOptions {
+            unsaved: options.unsaved.clone(),
+            ..ReadOptions::default()
+        };
         let reading = match &settings {
-            Some(settings) => settings::reading(settings, ReadOptions::default()),
-            None => ReadOptions::default(),
+            Some(settings) => settings::reading(settings, reading),
+            None => reading,
         };
         let read = rungc_frontend::read_with(&file, &reading)?;
         Project::new(file, settings, read, options)
@@ -138,6 +148,13 @@ impl Project {
     /// The model that it is compiled for.
     pub fn model(&self) -> &'static Model {
         compile::model(&self.0.read.program, &self.options())
+    }
+
+    /// The PLC that it is compiled for.
+    pub fn plc(&self) -> Plc {
+        let model = self.model().id;
+        let variant = self.0.plc.and_then(|plc| plc.variant);
+        Plc { model, variant }
     }
 
     /// Devices by the comments of the program.

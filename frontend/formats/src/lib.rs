@@ -20,6 +20,7 @@ mod recognise;
 mod search;
 mod table;
 mod text;
+mod unsaved;
 
 use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes, inputs};
 use std::collections::BTreeMap;
@@ -37,6 +38,7 @@ pub use plcopen::{MOST_CONTACTS, Names, PLCOPEN_CPU, iec_timer_unit, read as rea
 pub use recognise::{Recognised, is_meant_as_toml, is_program, recognise};
 pub use search::{is_project, programs, walk_error};
 pub use table::{MAX_TABLE, TableError, TableRow, read_table};
+pub use unsaved::Unsaved;
 
 /// A program and what its reader found.
 #[derive(Clone, Debug, Default)]
@@ -67,6 +69,8 @@ pub struct ReadOptions {
     pub image: bool,
     /// The devices of variables of PLCopen XML.
     pub names: Names,
+    /// Texts that an editor has not saved.
+    pub unsaved: Unsaved,
 }
 
 impl ReadOptions {
@@ -74,6 +78,14 @@ impl ReadOptions {
     fn encoding_of(&self, texts: &[&[u8]], stated: Option<&'static Encoding>) -> &'static Encoding {
         self.encoding
             .unwrap_or_else(|| encoding::of_texts(texts, stated))
+    }
+
+    /// The bytes of a file, or of what an editor has not saved of it.
+    fn load(&self, path: &Path) -> Result<Vec<u8>, ReadError> {
+        match self.unsaved.get(path) {
+            Some(text) => Ok(text.as_bytes().to_vec()),
+            None => load(path),
+        }
     }
 }
 
@@ -148,7 +160,7 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> 
         None
     };
     let file = inside.as_deref().unwrap_or(path);
-    let bytes = load(file)?;
+    let bytes = options.load(file)?;
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     check_kind(&name, &bytes, options)?;
     if gx::is_wpg(&bytes) || gx::is_cut_wpg(&name, &bytes) {
@@ -165,15 +177,20 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> 
         .is_some_and(|e| e.eq_ignore_ascii_case("il"));
     let folder = file.parent().filter(|_| !is_list && !gx::is_ole(&bytes));
     let comments = folder.and_then(|folder| find(folder, &["COMMENT.csv"]));
-    let comments = comments.map(|path| load(&path)).transpose()?;
+    let of_comments = comments
+        .as_deref()
+        .and_then(|path| options.unsaved.encoding(path));
+    let comments = comments.map(|path| options.load(&path)).transpose()?;
     let mut options = options.clone();
     if let (None, Some(comments)) = (options.encoding, &comments) {
         options.encoding = encoding::of_files(&[&bytes, comments]);
     }
+    let of_comments = of_comments.or(options.encoding);
+    options.encoding = options.unsaved.encoding(file).or(options.encoding);
     let mut read = read_bytes_with(&name, &bytes, &options)?;
     let takes_comments = matches!(read.program.kind, SourceKind::Csv | SourceKind::Image);
     if let (true, Some(comments)) = (takes_comments, &comments) {
-        let text = encoding::decode(comments, options.encoding);
+        let text = encoding::decode(comments, of_comments);
         let (comments, unread) = match &text {
             Some((text, _)) => csv::comments(text),
             None => (BTreeMap::new(), vec![csv::not_comments()]),

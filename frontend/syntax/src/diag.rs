@@ -90,6 +90,17 @@ impl Fix {
         self.edits.push(Edit { span, text });
         self
     }
+
+    /// Ends the lines of its edits as those of a text end.
+    #[must_use]
+    pub fn with_line_ends_of(mut self, text: &str) -> Self {
+        if text.contains("\r\n") {
+            for edit in &mut self.edits {
+                edit.text = edit.text.replace('\n', "\r\n");
+            }
+        }
+        self
+    }
 }
 
 /// A text after fixes were applied to it, and for each fix whether it was: one that touches what another changes is

@@ -32,6 +32,8 @@ pub struct Program {
     pub closing: Option<SmolStr>,
     /// Comments on devices, where the source has them.
     pub comments: BTreeMap<Device, String>,
+    /// Where an instruction list names the device of each of them.
+    pub comment_spans: BTreeMap<Device, Span>,
     /// PLC parameters of the project, if the source has them.
     pub parameters: Option<Parameters>,
     /// Devices of variables that keep their values over power-off, as the source declares.

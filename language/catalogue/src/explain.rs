@@ -7,6 +7,7 @@ mod words;
 
 pub use one_model::explain_on;
 pub use special::special_table;
+pub use words::meaning;
 
 use super::{Classes, Drive, Forms, Inst, Lower, Param, When, all, find};
 use crate::Form;
@@ -14,7 +15,6 @@ use crate::row::{SOURCE_BITS, WORDS};
 use rungc_models::{Model, ModelId};
 use special::{special_of, special_page};
 use std::fmt::Write;
-use words::meaning;
 
 /// The page of an instruction, in Markdown: operands, forms, steps, flags, errors, models, an example; or of a special
 /// device (`M8029`). `None` if nothing is called so.

@@ -33,7 +33,7 @@ mod string;
 #[cfg(test)]
 mod tests;
 
-pub use explain::{explain, explain_on, special_table, support_table};
+pub use explain::{explain, explain_on, meaning, special_table, support_table};
 pub use form::Form;
 pub use limits::Limits;
 pub use lookup::{Family, Found, all, families, find};

@@ -6,7 +6,7 @@ use super::{Failure, Outcome, Result, book, print_text};
 use crate::args::ExplainArgs;
 use rungc_models::plc_errors::{self, PlcError, of_check};
 use rungc_models::runs::is_special;
-use rungc_models::{Model, ModelId, ModelSet, Plc, VARIANTS, Variant, special};
+use rungc_models::{Model, ModelId, ModelSet, Plc, VARIANTS, Variant};
 use rungc_syntax::DeviceClass;
 use rungc_syntax::codes::{self, Code};
 use std::fmt::Write;
@@ -257,7 +257,7 @@ fn special_page(topic: &str, plc: Plc) -> Option<String> {
     if let Some(special) = model.special(class, number).filter(|_| !lacks) {
         return Some(format!(
             "{device} on {title}: {}",
-            describe(special, number)
+            rungc::index::describe(special, number)
         ));
     }
     if !is_special(class, number) {
@@ -274,32 +274,4 @@ fn special_page(topic: &str, plc: Plc) -> Option<String> {
             proposals::near_special(class, number, Some(plc))
         ),
     })
-}
-
-fn describe(special: &special::Special, number: u32) -> String {
-    let access = match special.access {
-        special::Access::Read => "written by the PLC, read-only for programs".to_string(),
-        special::Access::ReadWrite => "programs may write it".to_string(),
-        special::Access::ReadUnless(role) => format!(
-            "written by the PLC; by programs only while COM{} is {}",
-            role.port, role.title
-        ),
-    };
-    let status = match special.status {
-        special::Status::Scan => "updated by the scan".to_string(),
-        special::Status::Instructions(names) => format!("used by {names}"),
-        special::Status::Modules(_) | special::Status::Module(_) => {
-            "exchanged with the special modules that `[[module]]` in rungc.toml lists".to_string()
-        }
-        special::Status::Inert(reason) => format!("not simulated: {}", reason.text),
-    };
-    let default = if special.default == 0 {
-        String::new()
-    } else {
-        format!("; starts at {}", special.default)
-    };
-    format!(
-        "{}\n    {access}; {status}{default}",
-        special.meaning(number)
-    )
 }

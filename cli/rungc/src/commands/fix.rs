@@ -99,11 +99,6 @@ fn found(subject: &Subject, read: &Read) -> Vec<Diagnostic> {
 
 /// The fix of a diagnostic that may be applied unseen, with the line ends of the text.
 fn certain(diagnostic: &Diagnostic, read: &Read) -> Option<Fix> {
-    let mut fix = diagnostic.fix.clone().filter(|fix| fix.certain)?;
-    if read.program.source.text.contains("\r\n") {
-        for edit in &mut fix.edits {
-            edit.text = edit.text.replace('\n', "\r\n");
-        }
-    }
-    Some(fix)
+    let fix = diagnostic.fix.clone().filter(|fix| fix.certain)?;
+    Some(fix.with_line_ends_of(&read.program.source.text))
 }

@@ -207,10 +207,12 @@ impl Reader {
         } else if key.eq_ignore_ascii_case("title") {
             self.program.title = value;
         } else if let (Some((device, faults)), Some(value)) = (named(key), value) {
-            if faults.is_empty() {
-                self.program.comments.insert(device, value);
-            }
             let start = end - text.trim_start().len() as u32;
+            if faults.is_empty() {
+                let span = Span::new(start, start + key.len() as u32);
+                self.program.comments.insert(device, value);
+                self.program.comment_spans.insert(device, span);
+            }
             for fault in faults.into_iter() {
                 let place = |span: Span| Span::new(start + span.start, start + span.end);
                 self.diagnostics.push(fault.diagnostic(key, place, None));

@@ -6,7 +6,7 @@ use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
 /// Meaning of an operand, its use, and its rules, on one model or on all.
-pub(super) fn meaning(param: &Param, params: &[Param], model: Option<&Model>) -> String {
+pub fn meaning(param: &Param, params: &[Param], model: Option<&Model>) -> String {
     let thing = match param.shape {
         Shape::Bit => "bit",
         Shape::Value => "16 or 32 bits",
