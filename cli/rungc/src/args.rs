@@ -10,6 +10,7 @@ mod flash;
 mod fleet;
 mod forms;
 mod listings;
+mod lsp;
 mod properties;
 mod repeated;
 mod serve;
@@ -28,6 +29,7 @@ pub use flash::FlashArgs;
 pub use fleet::FleetArgs;
 pub use forms::{ConvertArgs, ConvertTo, NamesFile, PlcopenBody, ReadArgs, ReadFrom};
 pub use listings::{StatsArgs, StatsTo, ViewArgs, XrefArgs, XrefTo};
+pub use lsp::LspArgs;
 pub use properties::Properties;
 pub use serve::{PageArgs, ServeArgs, ServeSettings};
 pub use test::{CoverageFormat, TestArgs, TestFormat};
@@ -154,6 +156,12 @@ pub enum Command {
     /// the boot loader, the part or the line (E0850 and following); 2: incorrect usage or unreadable image; 130:
     /// interrupted.
     Flash(FlashArgs),
+    /// Serve an editor over the Language Server Protocol.
+    ///
+    /// Shows diagnostics, fixes, explanations and the ways through a program while you type. Editors start this command
+    /// (`rungc book editors`) and talk to it on standard input and output. Exit codes: 0: shut
+    /// down by the editor; 1: the connection ended without that.
+    Lsp(LspArgs),
     /// Write rungc.toml, the commented settings of a project.
     Init(InitArgs),
     /// Learn unknown instruction codes of a vendor project from the editor's list export.

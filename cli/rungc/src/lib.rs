@@ -49,6 +49,7 @@ pub fn main() -> ExitCode {
         Command::Read(args) => commands::read::run(args, cx),
         Command::Boards(args) => commands::boards::run(args, cx),
         Command::Flash(args) => commands::flash::run(args, cx),
+        Command::Lsp(_) => commands::lsp::run(),
         Command::Init(args) => commands::init::run(args, cx),
         Command::Learn(args) => commands::learn::run(args, cx),
         Command::Verify(args) => commands::verify::run(args, cx),
@@ -104,6 +105,7 @@ fn context(cli: &Cli) -> Context {
             | Command::Why(_)
             | Command::Stats(_)
             | Command::Diff(_)
+            | Command::Lsp(_)
             | Command::Verify(_) => true,
             Command::Xref(args) => is_printed(&args.output),
             Command::Fmt(args) => args.check,

@@ -17,6 +17,7 @@ mod in_place;
 pub mod init;
 pub mod interruption;
 pub mod learn;
+pub mod lsp;
 mod ports;
 mod properties;
 pub mod read;

@@ -16,6 +16,8 @@ mod coverage;
 mod deep;
 mod diff;
 mod documents;
+#[cfg(unix)]
+mod editors;
 mod embedded;
 #[cfg(unix)]
 mod executables;

@@ -66,14 +66,14 @@ fn program(text: &str) -> TempDir {
     folder(&[("p.il", text.as_bytes())])
 }
 
-fn client(name: &str) -> PathBuf {
+pub fn client(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/clients")
         .join(name)
 }
 
 /// Returns true if the peer is installed. If it is not, but `variable` says that it has to be, the test fails.
-fn there(peer: &str, variable: &str, mut look: Command) -> bool {
+pub fn there(peer: &str, variable: &str, mut look: Command) -> bool {
     let look = look.stdout(Stdio::null()).stderr(Stdio::null());
     if look.status().is_ok_and(|status| status.success()) {
         return true;
@@ -87,7 +87,7 @@ fn there(peer: &str, variable: &str, mut look: Command) -> bool {
 }
 
 /// Runs a client to its end, which is well if it says so.
-fn succeeds(mut client: Command) -> String {
+pub fn succeeds(mut client: Command) -> String {
     let output = client.output().unwrap();
     let (shown, errors) = (text(&output.stdout), text(&output.stderr));
     assert!(output.status.success(), "{shown}{errors}");
@@ -95,7 +95,7 @@ fn succeeds(mut client: Command) -> String {
 }
 
 /// A client of `tests/clients` for Python, if there is a Python that has the module.
-fn python(module: &str, script: &str) -> Option<Command> {
+pub fn python(module: &str, script: &str) -> Option<Command> {
     let python = env::var_os("RUNGC_PYTHON").unwrap_or_else(|| "python3".into());
     let mut import = Command::new(&python);
     import.args(["-c", &format!("import {module}")]);
