@@ -19,23 +19,27 @@ mod navigation;
 mod publish;
 mod rename;
 mod server;
+mod stdio;
 mod uri;
 mod view;
 
 pub use server::{Ended, serve};
 
-use lsp_server::Connection;
 use std::io;
 
 /// Serves one editor on standard input and output, until it ends the connection.
 ///
 /// # Errors
-/// Input that is not of the protocol.
+/// Input in which no messages can be found.
 pub fn serve_stdio() -> io::Result<Ended> {
-    let (connection, threads) = Connection::stdio();
+    let (connection, threads) = stdio::connect();
     let ended = serve(&connection);
     // The writing thread ends with the connection.
     drop(connection);
-    threads.join()?;
+    match ended {
+        // An editor need not close standard input.
+        Ended::Exit => threads.finish(),
+        Ended::Abandoned => threads.join()?,
+    }
     Ok(ended)
 }

@@ -42,11 +42,10 @@ impl Index {
             let Some(part) = self.network(number, network.clone()) else {
                 continue;
             };
-            for head in [self.label(network.clone()), self.state(network.clone())] {
-                if let Some(head) = head {
-                    close(&mut open, &mut closed, head.kind);
-                    open.push(head);
-                }
+            let heads = [self.label(network.clone()), self.state(network.clone())];
+            for head in heads.into_iter().flatten() {
+                close(&mut open, &mut closed, head.kind);
+                open.push(head);
             }
             for one in &mut open {
                 one.span = one.span.to(part.span);
