@@ -189,6 +189,7 @@ fn open(
         allow: codes(allow)?,
         deny: codes(deny)?,
         deny_warnings,
+        ..rungc::Options::default()
     };
     let opened = py.detach(|| rungc::Project::open_with(path, &options));
     opened.map(Project).map_err(raised)
