@@ -16,7 +16,7 @@ pub(crate) fn actions(
     params: &CodeActionParams,
 ) -> Vec<CodeActionResponse> {
     let is_wanted = |kind: CodeActionKind| match &params.context.only {
-        Some(kinds) => kinds.contains(&kind) || kinds.contains(&CodeActionKind::Empty),
+        Some(kinds) => kinds.iter().any(|wanted| includes(wanted, kind.clone())),
         None => true,
     };
     let mut actions = Vec::new();
@@ -45,6 +45,13 @@ pub(crate) fn actions(
         }
     }
     actions.into_iter().map(CodeActionResponse::from).collect()
+}
+
+/// Returns true if a kind is another one or a part of it, as `source.fixAll` is of `source`.
+fn includes(whole: &CodeActionKind, kind: CodeActionKind) -> bool {
+    let (whole, kind) = (String::from(whole.clone()), String::from(kind));
+    let rest = kind.strip_prefix(&whole);
+    rest.is_some_and(|rest| whole.is_empty() || rest.is_empty() || rest.starts_with('.'))
 }
 
 /// Edits of a fix.

@@ -112,6 +112,18 @@ fn fixes_change_what_is_there_now() {
     };
     let actions = client.ask("textDocument/codeAction", at(2));
     insta::assert_snapshot!(client.shown(&actions));
+    for (only, count) in [
+        ("quickfix", 1),
+        ("source", 1),
+        ("sourc", 0),
+        ("refactor", 0),
+        ("", 2),
+    ] {
+        let mut params = at(2);
+        params["context"]["only"] = json!([only]);
+        let actions = client.ask("textDocument/codeAction", params);
+        assert_eq!(actions.as_array().unwrap().len(), count, "{only}");
+    }
 }
 
 #[test]

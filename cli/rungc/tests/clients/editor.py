@@ -1,6 +1,6 @@
 """Edits a list with `rungc lsp` as editors do, by pytest-lsp: python3 editor.py RUNGC FOLDER.
 
-The capabilities are those of three editors. What a server sends is held to the specification by pytest-lsp and lsprotocol.
+The capabilities are those of two editors. What a server sends is held to the specification by pytest-lsp and lsprotocol.
 """
 
 import asyncio
@@ -121,7 +121,7 @@ async def edit(rungc, folder, editor):
 
 async def main():
     rungc, folder = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
-    for editor in ["neovim", "visual_studio_code", "emacs"]:
+    for editor in ["neovim", "visual_studio_code"]:
         await asyncio.wait_for(edit(rungc, folder, editor), 60)
 
 
