@@ -68,7 +68,7 @@ fn random_edits_and_requests_are_answered() {
     for name in names {
         client.open(name, "");
     }
-    for _ in 0..400 {
+    for _ in 0..250 {
         let name = names[if random.bool() {
             0
         } else {

@@ -11,11 +11,11 @@ const NETWORKS: usize = if cfg!(debug_assertions) { 60 } else { 1000 };
 /// A list of 16 000 steps, with comments and a few findings.
 fn list() -> String {
     let mut list = String::new();
-    for n in 0..2000 {
+    for n in 0..2 * NETWORKS {
         let _ = writeln!(list, ";! M{n} = 阀门 {n}");
     }
     for n in 0..NETWORKS {
-        let (m, d) = (n % 2000, n % 900);
+        let (m, d) = (n, n % 900);
         let _ = write!(
             list,
             "; 网络 {n}\nLD M{m}\nOR M{}\nANI X{:o}\nOUT M{m}\nLD M8013\nMOV K{n} D{d}\nAND> D{d} K5\nSET M{}\n",
@@ -36,7 +36,8 @@ fn a_long_program_is_answered() {
     assert!(client.diagnostics("long.il")["diagnostics"].is_array());
     let mut times = format!("open to diagnostics {:?}\n", start.elapsed());
     let document = client.document("long.il");
-    let line = 2000 + 9 * (NETWORKS as u32 / 2) + 1;
+    let comments = 2 * NETWORKS as u32;
+    let line = comments + 9 * (NETWORKS as u32 / 2) + 1;
     let at = |character| json!({ "textDocument": document, "position": position(line, character) });
     let with = |mut params: Value, key: &str, value: Value| {
         params[key] = value;
@@ -81,7 +82,7 @@ fn a_long_program_is_answered() {
     for (method, params) in requests {
         let mut ask = |after: &str| {
             if after == "after an edit" {
-                client.change("long.il", Some([2000, 1, 2000, 1]), " ");
+                client.change("long.il", Some([comments, 1, comments, 1]), " ");
             }
             let start = Instant::now();
             let answer = client.ask(&format!("textDocument/{method}"), params.clone());
@@ -92,7 +93,7 @@ fn a_long_program_is_answered() {
         ask("warm");
         times.push('\n');
     }
-    client.change("long.il", Some([2000, 1, 2000, 2]), "");
+    client.change("long.il", Some([comments, 1, comments, 2]), "");
     let start = Instant::now();
     client.notes.clear();
     client.diagnostics("long.il");
