@@ -42,7 +42,6 @@ impl Unsaved {
 
 #[cfg(test)]
 mod tests {
-    use super::Unsaved;
     use crate::{ReadOptions, read_with};
     use std::fs;
 
@@ -79,12 +78,21 @@ mod tests {
     fn open_comments_of_an_export_are_read() {
         let folder = tempfile::tempdir().unwrap();
         let place = |name: &str| folder.path().join(name);
-        fs::write(place("MAIN.csv"), "0\tLD\tX000\n1\tOUT\tY000\n2\tEND\t\n").unwrap();
-        fs::write(place("COMMENT.csv"), b"X000\t\xc6\xf4\xb6\xaf\n").unwrap();
+        let rows = [
+            "\"Step No.\"\t\"Instruction\"\t\"I/O (Device)\"",
+            "\"0\"\t\"LD\"\t\"X000\"",
+            "\"1\"\t\"OUT\"\t\"Y000\"",
+            "\"2\"\t\"END\"\t\"\"",
+        ];
+        let list = rows.join("\r\n");
+        fs::write(place("MAIN.csv"), list).unwrap();
+        let saved = b"Device\tComment\nX000\t\xc6\xf4\xb6\xaf\n";
+        fs::write(place("COMMENT.csv"), saved).unwrap();
         let mut options = ReadOptions::default();
-        options
-            .unsaved
-            .insert(&place("COMMENT.csv"), "X000\t停止\n".into());
+        options.unsaved.insert(
+            &place("COMMENT.csv"),
+            "Device\tComment\nX000\t停止\n".into(),
+        );
         let read = read_with(&place("MAIN.csv"), &options).unwrap();
         let comments: Vec<_> = read.program.comments.into_values().collect();
         assert_eq!(comments, ["停止"], "{:?}", read.diagnostics);

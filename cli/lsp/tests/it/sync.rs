@@ -115,7 +115,7 @@ fn fixes_change_what_is_there_now() {
     for (only, count) in [
         ("quickfix", 1),
         ("source", 1),
-        ("sourc", 0),
+        ("sources", 0),
         ("refactor", 0),
         ("", 2),
     ] {
