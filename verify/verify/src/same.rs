@@ -20,7 +20,6 @@ use rungc_ir::Module;
 use rungc_rt::Program;
 use rungc_sim::property::Monitor;
 use rungc_syntax::DeviceClass;
-use std::collections::BTreeSet;
 use std::time::Duration;
 use web_time::Instant;
 
@@ -101,9 +100,7 @@ pub fn compare(old: &Module, new: &Module, options: &Options) -> Compared {
         same_environment: product.same_environment(),
         latched_apart: product.latched_apart(),
         apart: product.apart(&names),
-        functions: BTreeSet::from_iter(product.encoder().gaps.iter().cloned())
-            .into_iter()
-            .collect(),
+        functions: product.functions.iter().cloned().collect(),
     }
 }
 

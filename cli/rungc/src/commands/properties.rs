@@ -18,8 +18,8 @@ use rungc_models::Model;
 use rungc_models::runs::is_special;
 use rungc_project::property::{PropertyKind, Row};
 use rungc_project::{Named, Project};
-use rungc_sim::Target;
 use rungc_sim::property::{Condition, ParseError, Property, parse};
+use rungc_sim::{Target, check_lasts};
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, OperandKind, Program, Span, codes};
 use rungc_verify::property::is_possible;
 use std::collections::{BTreeMap, BTreeSet};
@@ -197,6 +197,14 @@ impl Reader<'_> {
     pub fn external(&self) -> Result<ExternalWrites> {
         let names = Names::of(self.program);
         let free = setting::ranges("--free", &self.args.free, &names)?;
+        let model = rungc_lower::compile::model(self.program, &self.subject.options());
+        for &(class, first, last) in &free {
+            // Only special devices may be in their way.
+            for number in (first..=last).filter(|&number| is_special(class, number)) {
+                check_lasts(model, Target::Word(class, number), |_| true)
+                    .map_err(|why| Failure::Because(format!("--free: {why}")))?;
+            }
+        }
         Ok(ExternalWrites::of(Some(&free), self.project()))
     }
 

@@ -3,7 +3,7 @@
 use crate::aig::Lit;
 use crate::bits::Bits;
 use crate::effort::Limit;
-use crate::model::{Encoder, HostCall, Key, Names, Shared, World, Writer, device_of};
+use crate::model::{Encoder, Gap, HostCall, Key, Names, Shared, World, Writer, device_of};
 use crate::proof::Formula;
 use crate::property::{self, OUTPUTS_OFF};
 use crate::sat::{Answer, Solver};
@@ -32,6 +32,8 @@ pub(super) struct Product<'m> {
     shown: BTreeSet<Key>,
     /// Free bits for the pulses of outputs in the old and the new program, which are not known to send the same.
     pulses: BTreeMap<u32, [Lit; 2]>,
+    /// What is not modelled in either and supposed to be the same function in both.
+    pub functions: BTreeSet<Gap>,
 }
 
 /// Value of a memory after a function between two scans: as before if the program lacks the function.
@@ -77,9 +79,11 @@ impl<'m> Product<'m> {
                 free,
                 shown,
                 pulses: BTreeMap::new(),
+                functions: BTreeSet::new(),
             };
             let differing = product.differing(names, limit);
             if differing.is_empty() {
+                product.functions = product.new.gaps.iter().cloned().collect();
                 product.find_pulses();
                 return product;
             }

@@ -241,6 +241,24 @@ fn a_property_of_devices_that_are_not_there_is_rejected() {
     }
 }
 
+#[test]
+fn devices_that_each_scan_sets_are_not_free() {
+    let folder = folder(&[("modes.il", MODES.as_bytes())]);
+    for (free, refused) in [("M8013", true), ("M8000..M8005", true), ("M8034", false)] {
+        let args = [
+            "verify",
+            "modes.il",
+            "--never",
+            "Y000 & M8000",
+            "--free",
+            free,
+        ];
+        let shown = text(&rungc(folder.path(), &args).stderr);
+        let is_refused = shown.contains("cannot be set: each scan sets it");
+        assert_eq!(is_refused, refused, "{free}: {shown}");
+    }
+}
+
 /// Each new form of conditions, in `rungc.toml` and on the command line, by comments too.
 #[test]
 fn conditions_speak_of_bits_results_and_earlier_scans() {

@@ -252,8 +252,11 @@ impl Question {
     /// Lets something else write some devices of the program, as `--free` and `[hmi] writes` do.
     fn free(&mut self) {
         use DeviceClass::{C, D, M, R, S, T, V, Z};
-        let wanted =
-            |(class, _): &(DeviceClass, u32)| matches!(class, M | S | D | R | T | C | V | Z);
+        let model = Model::get(self.written.model);
+        let wanted = |&(class, number): &(DeviceClass, u32)| {
+            let is_class = matches!(class, M | S | D | R | T | C | V | Z);
+            is_class && !model.is_set_by_scan(class, number)
+        };
         let named: Vec<_> = self.devices.iter().copied().filter(wanted).collect();
         for _ in 0..1 + self.rng.below(3) {
             self.options.world.free.extend(self.rng.pick(&named));
@@ -278,9 +281,17 @@ impl Question {
 
     /// A random property that can be read.
     pub fn property(&mut self) -> Option<Asked> {
+        let model = Model::get(self.written.model);
         let read = |this: &mut Self, depth| {
             let text = this.condition(depth);
-            Some((parse(&text, &|_| Vec::new()).ok()?, text))
+            let condition = parse(&text, &|_| Vec::new()).ok()?;
+            // The command rejects what the model does not have.
+            let has = |(class, number)| model.has(class, number);
+            condition
+                .devices()
+                .into_iter()
+                .all(has)
+                .then_some((condition, text))
         };
         let depth = self.rng.below(3);
         let (first, first_text) = read(self, depth)?;
