@@ -332,11 +332,7 @@ pub fn called_functions(module: &Module) -> Vec<bool> {
     // `Begin`, `Main` and `End` come first.
     let by_host = |&i: &usize| {
         let kind = module.functions.get(i).map(|function| &function.kind);
-        i < 3
-            || matches!(
-                kind,
-                Some(FunctionKind::TakeInterrupts | FunctionKind::InputEdge { .. })
-            )
+        i < 3 || kind.is_some_and(FunctionKind::runs_between_scans)
     };
     let mut open: Vec<usize> = (0..called.len()).filter(by_host).collect();
     while let Some(i) = open.pop() {

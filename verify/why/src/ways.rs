@@ -176,7 +176,6 @@ impl Explainer<'_> {
         how.moments = search.seen.len();
         how.is_whole = matches!(found, Ok(None)) && how.left_out == 0;
         if let Ok(Some(acts)) = found {
-            search.session.restore(&now);
             let acts = search.without_needless(&now, acts);
             how.found = true;
             how.actions = search.described(&now, &acts, self);

@@ -117,6 +117,16 @@ pub enum FunctionKind {
     Signals,
 }
 
+impl FunctionKind {
+    /// Returns true if a host calls it between two scans.
+    pub fn runs_between_scans(&self) -> bool {
+        matches!(
+            self,
+            FunctionKind::InputEdge { .. } | FunctionKind::TakeInterrupts
+        )
+    }
+}
+
 /// A function: no parameters, no result, no recursion.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Function {
@@ -269,12 +279,7 @@ impl Module {
 
     /// Returns true if a host has to report input edges and time.
     pub fn takes_events(&self) -> bool {
-        let by_host = |f: &Function| {
-            matches!(
-                f.kind,
-                FunctionKind::InputEdge { .. } | FunctionKind::TakeInterrupts
-            )
-        };
+        let by_host = |f: &Function| f.kind.runs_between_scans();
         self.sends_pulses() || self.has_ports() || self.functions.iter().any(by_host)
     }
 

@@ -4,8 +4,8 @@ use super::eval::Eval;
 use super::interval::Interval;
 use super::state::{Known, Mask, State, join};
 use crate::node::{
-    Access, AccessKind, Action, Body, Branch, Expr, ExprId, Function, FunctionKind, LabelId, Part,
-    Place, Stmt, TempId, Ty,
+    Access, AccessKind, Action, Body, Branch, Expr, ExprId, Function, LabelId, Part, Place, Stmt,
+    TempId, Ty,
 };
 use crate::reach::{self, of_access};
 use crate::walk::{assigned, bodies, for_exprs, operands, statements};
@@ -253,10 +253,7 @@ impl<'m> Walk<'m> {
         let end = self.function(2, main);
         let mut ends = vec![begin, end];
         for (i, function) in functions.iter().enumerate().skip(3) {
-            let by_host = matches!(
-                function.kind,
-                FunctionKind::InputEdge { .. } | FunctionKind::TakeInterrupts
-            );
+            let by_host = function.kind.runs_between_scans();
             let called = self.known.entries[i].clone();
             let entry = match by_host {
                 true => join(called, Some(between.clone())),

@@ -19,13 +19,7 @@ impl Encoder<'_> {
     /// Executes each of these functions with memory as it is before a scan.
     pub(super) fn run_between(&mut self) {
         let module = self.module;
-        let by_host = |kind: &FunctionKind| {
-            matches!(
-                kind,
-                FunctionKind::InputEdge { .. } | FunctionKind::TakeInterrupts
-            )
-        };
-        let functions = self.functions_of(by_host);
+        let functions = self.functions_of(FunctionKind::runs_between_scans);
         if functions.is_empty() {
             return;
         }
