@@ -2,7 +2,7 @@
 
 use crate::aig::{Aig, Lit};
 use crate::effort::Limit;
-use crate::lag::{self, Lag};
+use crate::lag::{self, Ending, Lag};
 use crate::pdr::Cube;
 use crate::reduce::reduced;
 use crate::system::System;
@@ -29,6 +29,8 @@ pub enum Fact {
     },
     /// A clock is not ahead of a timer by more than this.
     Lag(Lag),
+    /// A latch that ends a clock has this value where its timer has expired.
+    Ends(Ending),
 }
 
 impl Fact {
@@ -42,6 +44,7 @@ impl Fact {
             } => aig.same(changed(latch), changed(other)),
             Fact::Bit { latch, like: None } => !changed(latch),
             Fact::Lag(lag) => lag.holds(system, aig, of),
+            Fact::Ends(ending) => ending.holds(system, aig, of),
         }
     }
 }

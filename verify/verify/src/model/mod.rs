@@ -32,7 +32,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::aig::{Aig, Lit};
 use crate::bits::{Bits, constant};
-use crate::lag::Lag;
 use crate::system::{Latch, System};
 use rungc_ir::Module;
 use rungc_ir::node::{Action, Arg, ExprId, FunctionKind, LabelId, Stmt};
@@ -456,28 +455,6 @@ impl<'m> Encoder<'m> {
     pub(crate) fn note_clock(&mut self, memory: [usize; 3], unit_ms: u16) {
         let keys = memory.map(|monitor| self.extra_latches[monitor].0);
         self.clocks.push((keys, unit_ms));
-    }
-
-    /// Relations between clocks and timers of the same unit that may hold: a clock begins with the coil of a timer, or
-    /// a scan before.
-    fn lags(&self) -> Vec<Lag> {
-        let timers = self.state.keys().filter_map(|key| match *key {
-            Key::Timer(timer, TimerPart::Value) => {
-                Some((timer, self.module.model.timer(timer)?.unit_ms))
-            }
-            _ => None,
-        });
-        let pairs = timers.flat_map(|timer| self.clocks.iter().map(move |clock| (timer, clock)));
-        let alike = pairs.filter(|((_, timer_unit_ms), (_, unit_ms))| timer_unit_ms == unit_ms);
-        let lags = alike.flat_map(|((timer, unit_ms), &(clock, _))| {
-            [0, self.world.scan_ms].map(|most_ms| Lag {
-                clock,
-                timer,
-                unit_ms,
-                most_ms,
-            })
-        });
-        lags.collect()
     }
 
     /// Sets the value of such a memory after the scan.

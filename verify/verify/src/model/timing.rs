@@ -3,7 +3,8 @@
 use super::{CounterPart, Encoder, Key, TimerPart};
 use crate::aig::Lit;
 use crate::bits::{Bits, constant, unsigned};
-use rungc_ir::node::{Action, Stmt};
+use crate::lag::{Expired, Lag};
+use rungc_ir::node::{Action, Expr, Stmt};
 use rungc_ir::reach::{Footprint, of_expr, of_stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::TimerKind;
@@ -132,6 +133,55 @@ impl Encoder<'_> {
                 .map(|(_, n)| n),
         );
         self.exact_timers = Some(exact);
+    }
+
+    /// Relations between clocks and timers of the same unit that may hold: a clock begins with the coil of a timer, or
+    /// a scan before.
+    pub(super) fn lags(&self) -> Vec<Lag> {
+        let timers = self.state.keys().filter_map(|key| match *key {
+            Key::Timer(timer, TimerPart::Value) => {
+                Some((timer, self.module.model.timer(timer)?.unit_ms))
+            }
+            _ => None,
+        });
+        let pairs = timers.flat_map(|timer| self.clocks.iter().map(move |clock| (timer, clock)));
+        let alike = pairs.filter(|((_, timer_unit_ms), (_, unit_ms))| timer_unit_ms == unit_ms);
+        let scan_ms = self.world.scan_ms;
+        let lags = alike.flat_map(|((timer, unit_ms), &(clock, _))| {
+            let expired = self.preset(timer).map(|preset| Expired { preset, scan_ms });
+            let expirations = [Some(None), expired.map(Some)].into_iter().flatten();
+            expirations.flat_map(move |expired| {
+                [0, scan_ms].map(|most_ms| Lag {
+                    clock,
+                    timer,
+                    unit_ms,
+                    most_ms,
+                    expired,
+                })
+            })
+        });
+        lags.collect()
+    }
+
+    /// The preset of a timer, if all its coils have the same constant.
+    fn preset(&self, timer: u32) -> Option<i16> {
+        let mut presets = BTreeSet::new();
+        for function in &self.module.functions {
+            statements(&function.body, &mut |stmt| {
+                if let Stmt::Do(Action::Timer(coil)) = stmt
+                    && coil.number == timer
+                {
+                    presets.insert(match self.module.expr(coil.preset) {
+                        Expr::I16(preset) => Some(*preset),
+                        _ => None,
+                    });
+                }
+            });
+        }
+        match presets.len() {
+            1 => presets.pop_first()?,
+            _ => None,
+        }
     }
 
     /// A timer whose coil is on.
