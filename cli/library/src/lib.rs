@@ -40,6 +40,7 @@ mod error;
 pub mod index;
 pub mod location;
 pub mod mistakes;
+pub mod monitor;
 pub mod names;
 pub mod other_model;
 mod plc;

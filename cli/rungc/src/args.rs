@@ -17,6 +17,7 @@ mod serve;
 mod test;
 mod values;
 mod verify;
+mod watch;
 mod why;
 
 pub use boards::BoardsArgs;
@@ -27,13 +28,16 @@ pub use emit::{Backend, Emit};
 pub use explore::{ExploreArgs, Latched, SearchEngine};
 pub use flash::FlashArgs;
 pub use fleet::FleetArgs;
-pub use forms::{ConvertArgs, ConvertTo, NamesFile, PlcopenBody, ReadArgs, ReadFrom};
+pub use forms::{
+    ConvertArgs, ConvertTo, LineArgs, McFrame, NamesFile, PlcArgs, PlcopenBody, ReadArgs, ReadFrom,
+};
 pub use listings::{StatsArgs, StatsTo, ViewArgs, XrefArgs, XrefTo};
 pub use lsp::LspArgs;
 pub use properties::Properties;
 pub use serve::{PageArgs, ServeArgs, ServeSettings};
 pub use test::{CoverageFormat, TestArgs, TestFormat};
 pub use verify::VerifyArgs;
+pub use watch::{WatchArgs, WatchTo};
 pub use why::WhyArgs;
 
 use crate::output::OutputPath;
@@ -134,6 +138,10 @@ pub enum Command {
     /// Without a run, lists what can switch the device. With --set, --for or --machine, the program runs to that
     /// moment, and the answer says what keeps the device as it is, since when, and what would change it.
     Why(WhyArgs),
+    /// Show the devices of a PLC as they change, over its programming port.
+    ///
+    /// The PLC is read, and nothing in it is changed.
+    Watch(WatchArgs),
     /// Count steps, instructions and devices, and estimate the scan time of the real PLC.
     Stats(StatsArgs),
     /// Format instruction lists, preserving comments.

@@ -57,6 +57,7 @@ pub fn main() -> ExitCode {
         Command::View(args) => commands::view::run(args, cx),
         Command::Xref(args) => commands::xref::run(args, cx),
         Command::Why(args) => commands::why::run(args, cx),
+        Command::Watch(args) => commands::watch::run(args, cx),
         Command::Stats(args) => commands::stats::run(args, cx),
         Command::Fmt(args) => commands::fmt::run(args, cx),
         Command::Diff(args) => commands::diff::run(args, cx),
@@ -103,6 +104,7 @@ fn context(cli: &Cli) -> Context {
             | Command::Serve(_)
             | Command::Fleet(_)
             | Command::Why(_)
+            | Command::Watch(_)
             | Command::Stats(_)
             | Command::Diff(_)
             | Command::Lsp(_)

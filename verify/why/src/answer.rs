@@ -73,8 +73,9 @@ pub struct Action {
 /// A moment of a run.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Moment {
-    /// Milliseconds since power-on.
-    pub ms: u64,
+    /// Milliseconds since power-on; `None` of a moment that a PLC was read at.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ms: Option<u64>,
     /// Value of the device: `on`, `off`, `12`.
     pub value: String,
     /// Value after the next scan, if that changes it.

@@ -154,7 +154,7 @@ impl<'p> Explainer<'p> {
         let next = now.trace.bits.get(&device).filter(|_| is_bit(device));
         let next = next.map(|&id| on_off(now.trace.graph.value(id)));
         Moment {
-            ms: now.session.now_ms(),
+            ms: Some(now.session.now_ms()),
             next: next.filter(|next| *next != value),
             value,
             running: now.session.machine().sys().running,

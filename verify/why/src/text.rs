@@ -75,7 +75,11 @@ impl Why {
             };
             return;
         };
-        let _ = write!(out, "{name} is {} at {}", moment.value, time(moment.ms));
+        let _ = write!(out, "{name} is {}", moment.value);
+        let _ = match moment.ms {
+            Some(ms) => write!(out, " at {}", time(ms)),
+            None => write!(out, " in the PLC"),
+        };
         if let Some(since) = self.causes.first().and_then(|cause| cause.since.as_ref()) {
             let _ = write!(out, ", since {} (scan {})", time(since.ms), since.scan);
             if !since.with.is_empty() {

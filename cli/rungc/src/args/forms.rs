@@ -33,15 +33,8 @@ pub struct ReadArgs {
     /// (`tcp:HOST:PORT`).
     #[arg(long, value_parser = serial_end, value_name = "PORT")]
     pub port: LineEnd,
-    /// Bit rate; the format is always 7 data bits, even parity, 1 stop bit.
-    #[arg(long, default_value_t = 9600, value_parser = clap::value_parser!(u32).range(300..=115_200), value_name = "BITS_PER_SECOND")]
-    pub baud: u32,
-    /// Time to wait for a response.
-    #[arg(long, default_value = "1s", value_parser = crate::time::parse_wait, value_name = "TIME")]
-    pub timeout: u64,
-    /// Number of retries if a response is missing or damaged.
-    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(..=100), value_name = "N")]
-    pub retries: u32,
+    #[command(flatten)]
+    pub line: LineArgs,
     /// Output format; `image` is the unchanged program memory.
     #[arg(long, value_enum, default_value_t = ConvertTo::Il)]
     pub to: ConvertTo,
@@ -53,6 +46,62 @@ pub struct ReadArgs {
     pub force: bool,
     #[command(flatten)]
     pub reporting: Reporting,
+}
+
+/// Arguments for the line to a PLC's programming port.
+#[derive(Args, Clone, Debug)]
+pub struct LineArgs {
+    /// Bit rate; the format is always 7 data bits, even parity, 1 stop bit.
+    #[arg(long, requires = "port", default_value_t = 9600, value_parser = clap::value_parser!(u32).range(300..=115_200), value_name = "BITS_PER_SECOND")]
+    pub baud: u32,
+    /// Time to wait for a response.
+    #[arg(long, default_value = "1s", value_parser = crate::time::parse_wait, value_name = "TIME")]
+    pub timeout: u64,
+    /// Number of retries if a response is missing or damaged.
+    #[arg(long, requires = "port", default_value_t = 3, value_parser = clap::value_parser!(u32).range(..=100), value_name = "N")]
+    pub retries: u32,
+}
+
+/// Arguments for a PLC that is only read.
+#[derive(Args, Clone, Debug)]
+pub struct PlcArgs {
+    /// Read the PLC whose programming port is at this serial port (`/dev/ttyUSB0`, `COM3`) or at a serial device server
+    /// (`tcp:HOST:PORT`).
+    #[arg(long, value_parser = serial_end, value_name = "PORT", conflicts_with = "mc")]
+    pub port: Option<LineEnd>,
+    /// Read a PLC that speaks the MC protocol over TCP, in binary, such as an FX3U with an Ethernet module.
+    #[arg(long, value_parser = host, value_name = "HOST:PORT")]
+    pub mc: Option<LineEnd>,
+    /// Frame of the MC protocol: Ethernet modules of FX3 understand 1e; FX5, Q and L understand 3e.
+    #[arg(long, value_enum, requires = "mc", default_value_t = McFrame::E1, value_name = "FRAME")]
+    pub mc_frame: McFrame,
+    #[command(flatten)]
+    pub line: LineArgs,
+}
+
+impl PlcArgs {
+    /// True if a PLC is named.
+    pub fn names_plc(&self) -> bool {
+        self.port.is_some() || self.mc.is_some()
+    }
+}
+
+/// Frames of the MC protocol.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum McFrame {
+    /// 1E.
+    #[value(name = "1e")]
+    E1,
+    /// 3E.
+    #[value(name = "3e")]
+    E3,
+}
+
+fn host(text: &str) -> Result<LineEnd, String> {
+    match LineEnd::parse(&format!("tcp:{text}"))? {
+        end @ LineEnd::Tcp(_) => Ok(end),
+        _ => Err("write it as HOST:PORT".to_string()),
+    }
 }
 
 /// Address of a PLC or a board.

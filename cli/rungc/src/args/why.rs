@@ -1,6 +1,6 @@
 //! Arguments of `why`.
 
-use super::Input;
+use super::{Input, PlcArgs};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -12,6 +12,7 @@ Examples:
   rungc why press.il Y000 --set X000=1,X001=1 --for 2s  why it is on or off after 2 s
   rungc why press.il \"press valve\" --for 1s             a device by its comment
   rungc why press.il Y000 --how                         what a person can do so that it changes
+  rungc why press.il Y000 --port /dev/ttyUSB0           why it is on or off in the PLC itself
   rungc why press.il Y000 --for 1s --format json        the answer as an object")]
 pub struct WhyArgs {
     #[command(flatten)]
@@ -21,18 +22,23 @@ pub struct WhyArgs {
     pub device: Option<String>,
     /// Explain the moment after this virtual time: `200ms`, `5s`, `2min`; a bare number is milliseconds. Default: 1s if
     /// a device is set, there is a machine, or `--how` asks; else the program alone is explained.
-    #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
+    #[arg(long = "for", conflicts_with_all = ["port", "mc"], value_parser = crate::time::parse, value_name = "TIME")]
     pub duration: Option<u64>,
     /// Scan time, in virtual time; a longer constant scan time of the program takes precedence. Default: the program's
     /// constant scan time, or 10ms.
     #[arg(long, value_parser = crate::time::parse, value_name = "TIME")]
     pub scan: Option<u64>,
     /// Set a device at a time, as for `rungc run`: `X000=1@200ms`; may be repeated or separated by commas.
-    #[arg(long, value_name = "DEVICE=VALUE[@TIME]")]
+    #[arg(long, conflicts_with_all = ["port", "mc"], value_name = "DEVICE=VALUE[@TIME]")]
     pub set: Vec<String>,
     /// Simulated machine, whose axes, cylinders and delays follow the outputs and drive inputs (`rungc book machines`).
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, conflicts_with_all = ["port", "mc"], value_name = "FILE")]
     pub machine: Option<PathBuf>,
+    /// Compare the program in the PLC with the file first, which takes as long as `rungc read`.
+    #[arg(long, requires = "port")]
+    pub compare: bool,
+    #[command(flatten)]
+    pub plc: PlcArgs,
     /// Search for what a person can do from that moment on so that the device changes.
     #[arg(long)]
     pub how: bool,

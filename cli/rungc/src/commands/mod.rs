@@ -17,6 +17,7 @@ mod in_place;
 pub mod init;
 pub mod interruption;
 pub mod learn;
+mod line;
 pub mod lsp;
 mod ports;
 mod properties;
@@ -30,6 +31,7 @@ pub mod test;
 mod together;
 pub mod verify;
 pub mod view;
+pub mod watch;
 pub mod why;
 pub mod xref;
 
@@ -100,6 +102,12 @@ impl From<String> for Failure {
 
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
+        Failure::Because(error.to_string())
+    }
+}
+
+impl From<rungc_monitor::Error> for Failure {
+    fn from(error: rungc_monitor::Error) -> Self {
         Failure::Because(error.to_string())
     }
 }

@@ -1,17 +1,18 @@
 //! `rungc read`: the program of a PLC, over its programming port.
 
-mod client;
-
 use super::convert::written;
+use super::line::{self, Line};
 use super::{Context, Failure, Result, conclude, grouped, interruption, print_bytes, print_text};
 use crate::args::{ConvertTo, PlcopenBody, ReadArgs};
 use crate::output::{file, spare, write_file};
 use crate::progress;
 use crate::report::{Findings, Reporter};
-use client::{Client, Reply};
+use rungc::monitor::first_difference;
 use rungc_frontend::{ReadOptions, image};
 use rungc_lower::compile::CompileOptions;
+use rungc_monitor::{Reply, fx, number};
 use rungc_rt::comm::fx_port::PROGRAM_MEMORY;
+use rungc_syntax::Program;
 use std::io::{self, IsTerminal};
 use std::path::Path;
 use std::time::Instant;
@@ -20,21 +21,6 @@ use std::time::Instant;
 const CHUNK: usize = 0x40;
 /// Bytes that a word has.
 const WORD: usize = 2;
-/// Request for the PLC's type and version.
-const TYPE: &[u8] = b"00E0202";
-/// M8000, by a command that only FX3 knows.
-const FX3_ONLY: &[u8] = b"F50100060";
-
-/// Types by D8001 in thousands, and whether the PLC knows FX3's commands: the CPU type as the editors spell it.
-const TYPES: [(u16, bool, &str); 6] = [
-    (22, false, "FX1S"),
-    (26, false, "FX1N/FX1NC"),
-    (24, false, "FX2N/FX2NC"),
-    (28, true, "FX3S"),
-    (26, true, "FX3G"),
-    (24, true, "FX3U/FX3UC"),
-];
-
 /// Reads a PLC. Nothing is written before all of the program has been read.
 pub fn run(args: &ReadArgs, cx: Context) -> Result {
     if let Some(path) = file(&args.output) {
@@ -42,9 +28,9 @@ pub fn run(args: &ReadArgs, cx: Context) -> Result {
     }
     interruption::note();
     let begin = Instant::now();
-    let mut plc = Plc::connect(args)?;
+    let mut plc = line::at_port(&args.port, &args.line)?;
     cx.detail(|| format!("    Reading {} at {}", plc.title(), args.port));
-    let memory = plc.memory()?;
+    let memory = Plc(&mut plc).memory()?;
     let name = args.port.to_string();
     let options = ReadOptions {
         image: true,
@@ -52,7 +38,7 @@ pub fn run(args: &ReadArgs, cx: Context) -> Result {
     };
     let read = rungc_frontend::read_bytes_with(&name, &memory, &options);
     let mut read = read.map_err(|error| Failure::Because(error.to_string()))?;
-    read.program.cpu = plc.cpu.map(str::to_string);
+    read.program.cpu = plc.cpu().map(str::to_string);
     let mut reporter = Reporter::new(&args.reporting, cx, false);
     let mut diagnostics = read.diagnostics.clone();
     let bytes = match args.to {
@@ -88,44 +74,31 @@ pub fn run(args: &ReadArgs, cx: Context) -> Result {
     outcome
 }
 
-/// A PLC that has answered.
-struct Plc {
-    client: Client,
-    /// Content of D8001.
-    type_code: u16,
-    cpu: Option<&'static str>,
+/// Says where the program in a PLC differs from a program; of a PLC that does not show its program, nothing.
+pub fn compare(
+    plc: &mut rungc_monitor::Plc<Line>,
+    program: &Program,
+) -> std::result::Result<String, Failure> {
+    let rungc_monitor::Plc::Port(plc) = plc else {
+        return Err(Failure::Because(
+            "this connection does not show the program".to_string(),
+        ));
+    };
+    let memory = Plc(plc).memory()?;
+    Ok(match first_difference(program, &memory) {
+        Ok(None) => "the program in the PLC is this program".to_string(),
+        Ok(Some(step)) => format!("the program in the PLC is another one, from step {step} on"),
+        Err(_) => {
+            let why = "machine code of its instructions is not known";
+            format!("this program cannot be compared with that in the PLC: {why}")
+        }
+    })
 }
 
-impl Plc {
-    fn connect(args: &ReadArgs) -> std::result::Result<Plc, Failure> {
-        let mut client = Client::open(args)?;
-        client.greet()?;
-        let code = client.data(TYPE, WORD)?;
-        let [low, high] = code.as_deref().unwrap_or_default() else {
-            let why = "the PLC does not show its type in D8001";
-            return Err(client.failure(why));
-        };
-        let type_code = u16::from_le_bytes([*low, *high]);
-        let is_fx3 = matches!(client.request(FX3_ONLY)?, Reply::Data(_));
-        let known = TYPES.iter();
-        let mut known = known.filter(|(code, ..)| *code == type_code / 1000);
-        let exact = known.clone().find(|(_, fx3, _)| *fx3 == is_fx3);
-        let cpu = exact.or_else(|| known.next()).map(|(.., cpu)| *cpu);
-        Ok(Plc {
-            client,
-            type_code,
-            cpu,
-        })
-    }
+/// A PLC whose program is read.
+struct Plc<'p>(&'p mut fx::Plc<Line>);
 
-    /// Name for users.
-    fn title(&self) -> String {
-        match self.cpu {
-            Some(cpu) => format!("{cpu} (D8001 = {})", self.type_code),
-            None => format!("a PLC of unknown type (D8001 = {})", self.type_code),
-        }
-    }
-
+impl Plc<'_> {
     /// The program memory from its first byte to the program's `END`.
     fn memory(&mut self) -> std::result::Result<Vec<u8>, Failure> {
         let mut memory = Vec::new();
@@ -137,7 +110,7 @@ impl Plc {
         if image::is_protected(&memory) {
             let why = "a keyword protects the program, and it is not read; \
                        if it is yours, delete the keyword with the editor";
-            return Err(self.client.failure(why));
+            return Err(self.failure(why));
         }
         let start = image::program_start(&memory);
         let end = self.end()?;
@@ -158,16 +131,14 @@ impl Plc {
                 return Ok(memory);
             }
         }
-        Err(self
-            .client
-            .failure("the program memory holds no program that ends with END"))
+        Err(self.failure("the program memory holds no program that ends with END"))
     }
 
     /// Length of the memory up to `END`, where the PLC finds it.
     fn end(&mut self) -> std::result::Result<Option<usize>, Failure> {
-        let reply = self.client.request(b"E41805C0F00")?;
+        let reply = self.0.client().request(b"E41805C0F00")?;
         let address = match &reply {
-            Reply::Data(text) => text.strip_prefix(b"1").and_then(client::number),
+            Reply::Data(text) => text.strip_prefix(b"1").and_then(number),
             _ => None,
         };
         let offset = address.and_then(|address| address.checked_sub(PROGRAM_MEMORY));
@@ -177,13 +148,17 @@ impl Plc {
     /// Reads bytes of program memory; only FX1S has another command for it.
     fn read(&mut self, offset: usize, count: usize) -> std::result::Result<Vec<u8>, Failure> {
         let address = PROGRAM_MEMORY as usize + offset;
-        let command = if self.cpu == Some("FX1S") { "0" } else { "E01" };
+        let command = if self.0.is_basic() { "0" } else { "E01" };
         let request = format!("{command}{address:04X}{count:02X}");
-        let data = self.client.data(request.as_bytes(), count)?;
+        let data = self.0.client().data(request.as_bytes(), count)?;
         data.ok_or_else(|| {
             let why = "the PLC rejects reading its program: a keyword may protect it; \
                        if it is yours, delete the keyword with the editor";
-            self.client.failure(why)
+            self.failure(why)
         })
+    }
+
+    fn failure(&mut self, why: &str) -> Failure {
+        self.0.client().failure(why).into()
     }
 }

@@ -1,21 +1,28 @@
 //! `rungc why`.
 
+use super::line;
+use super::read::compare;
 use super::run::{check_machine, check_scan, look_for_all, machine};
 use super::setting::{self, Setting};
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, conclude, findings, print_text, read};
+use super::{
+    Context, Failure, Outcome, Result, conclude, findings, interruption, print_text, read,
+};
 use crate::args::{Format, WhyArgs};
 use crate::report::{Reporter, to_json};
+use rungc::monitor::device_of;
 use rungc::settings::is_written_outside;
 use rungc::{Names, Why};
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
+use rungc_monitor::Sample;
 use rungc_sim::Session;
 use rungc_sim::plant::Description;
 use rungc_sim::session::hardware;
 use rungc_syntax::Device;
 use rungc_why::{Explainer, History, HowOptions};
+use std::collections::BTreeSet;
 
 /// Explains why a device is on or off.
 pub fn run(args: &WhyArgs, cx: Context) -> Result {
@@ -68,6 +75,7 @@ fn explain(
         machine: machine.as_ref(),
     };
     let why = match args.end_ms() {
+        _ if args.plc.names_plc() => run.explain_plc(&explainer, device)?,
         Some(end_ms) => run.explain(&explainer, device, end_ms)?,
         None => explainer.of_program(device),
     };
@@ -94,15 +102,45 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
+    fn session(&self) -> Session<'_> {
+        let parameters = self.read.program.parameters.as_ref();
+        let modules = parameters.map_or(&[][..], |parameters| &parameters.modules);
+        Session::new(self.module, hardware(modules))
+    }
+
+    /// Explains the present moment of a PLC.
+    fn explain_plc(
+        &self,
+        explainer: &Explainer,
+        device: Device,
+    ) -> std::result::Result<Why, Failure> {
+        interruption::note();
+        let mut plc = line::plc(&self.args.plc)?;
+        let compared = match self.args.compare {
+            true => Some(compare(&mut plc, &self.read.program)?),
+            false => None,
+        };
+        let items = rungc::monitor::items(&self.read.program, self.module.model);
+        let sample = plc.read(items)?;
+        let mut session = self.session();
+        rungc::monitor::take_over(&mut session, &sample);
+        let mut why = explainer.at_moment(&mut session, self.args.scan, device, None);
+        if let Some(moment) = &mut why.moment {
+            moment.ms = None;
+        }
+        why.notes
+            .extend(compared.into_iter().chain(hidden(&sample)));
+        self.add_how(&mut why, explainer, &mut session, device);
+        Ok(why)
+    }
+
     fn explain(
         &self,
         explainer: &Explainer,
         device: Device,
         end_ms: u64,
     ) -> std::result::Result<Why, Failure> {
-        let parameters = self.read.program.parameters.as_ref();
-        let modules = parameters.map_or(&[][..], |parameters| &parameters.modules);
-        let mut session = Session::new(self.module, hardware(modules));
+        let mut session = self.session();
         let named = self.settings.iter().map(|setting| setting.target);
         look_for_all(named, session.seen(), self.module)?;
         let mut pending = self.settings;
@@ -127,6 +165,12 @@ impl Run<'_> {
         }
         setting::report_late(pending.iter());
         let mut why = explainer.at_moment(&mut session, self.args.scan, device, Some(&history));
+        self.add_how(&mut why, explainer, &mut session, device);
+        Ok(why)
+    }
+
+    /// Adds what a person can do, if that is asked for.
+    fn add_how(&self, why: &mut Why, explainer: &Explainer, session: &mut Session, device: Device) {
         if self.args.how {
             let settings = self.subject.own_project();
             let is_outside = |device| is_written_outside(settings, device);
@@ -135,10 +179,23 @@ impl Run<'_> {
                 is_outside: &is_outside,
                 ..HowOptions::default()
             };
-            why.how = Some(explainer.how(&mut session, device, &options));
+            why.how = Some(explainer.how(session, device, &options));
         }
-        Ok(why)
     }
+}
+
+/// What the port of a PLC does not show, of all that the program names.
+fn hidden(sample: &Sample) -> Option<String> {
+    let devices: BTreeSet<Device> = sample.hidden.iter().map(|&item| device_of(item)).collect();
+    let named: Vec<String> = devices.iter().take(8).map(Device::to_string).collect();
+    let more = if devices.len() > named.len() {
+        ", …"
+    } else {
+        ""
+    };
+    let named = named.join(", ");
+    (!devices.is_empty())
+        .then(|| format!("not shown by the port of the PLC, and taken for off or 0: {named}{more}"))
 }
 
 /// Makes the settings whose time has come.

@@ -71,4 +71,5 @@ mod usage;
 mod vendor;
 mod verify;
 mod view;
+mod watch;
 mod why;

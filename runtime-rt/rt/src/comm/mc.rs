@@ -13,6 +13,7 @@ mod frame_3e;
 mod tests;
 
 use super::{Cut, Frame, LineFault, Map};
+pub use device::codes;
 
 /// Maximum number of characters of a request: 960 words in ASCII, with their frame.
 pub const LONGEST: usize = 42 + 4 * 960;

@@ -125,6 +125,33 @@ impl Space {
         base + u32::from(bit / 8)
     }
 
+    /// The byte that holds a bit of a device, and the bit's position in it: of a timer or counter its contact. `None` if
+    /// it has no address.
+    pub fn bit_address(self, class: Class, number: u32) -> Option<(u32, u32)> {
+        self.rows().iter().find_map(|&(start, end, area)| {
+            let Area::Bits(of, first) = area else {
+                return None;
+            };
+            let offset = number.checked_sub(first)?;
+            let address = start + offset / 8;
+            (of == class && address <= end).then_some((address, offset % 8))
+        })
+    }
+
+    /// The first byte of a device's value: of a timer or counter its current value, which takes four bytes from C200
+    /// on. `None` if it has no address.
+    pub fn word_address(self, class: Class, number: u32) -> Option<u32> {
+        self.rows().iter().find_map(|&(start, end, area)| {
+            let (of, first, size) = match area {
+                Area::Words(of, first) => (of, first, 2),
+                Area::Counters32 => (Class::C, FIRST_COUNTER32, 4),
+                _ => return None,
+            };
+            let address = start + number.checked_sub(first)? * size;
+            (of == class && address < end).then_some(address)
+        })
+    }
+
     /// Area and position at a byte address.
     pub(super) fn find(self, address: u32) -> Option<(Area, Place)> {
         let &(start, _, area) = self

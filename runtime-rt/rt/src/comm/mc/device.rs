@@ -52,6 +52,14 @@ const ROWS: &[Row] = &[
     row(Class::R, false, 0x5220, 0xb0, *b"ZR"),
 ];
 
+/// Codes of devices in requests: in frame 1E and in frame 3E. `is_bit` chooses between contacts and current values of
+/// timers and counters. `None` if the protocol does not have them.
+pub fn codes(class: Class, is_bit: bool) -> Option<(u16, u8)> {
+    let mut rows = ROWS.iter();
+    let row = rows.find(|row| row.class == class && row.is_bit == is_bit)?;
+    Some((row.code_1e, row.code_3e))
+}
+
 impl Row {
     /// Device of the row. No PLC has as many devices as numbers may say, so sums of numbers and counts do not overflow.
     fn device(&self, first: u32) -> Result<Device, Refusal> {

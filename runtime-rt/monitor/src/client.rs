@@ -1,9 +1,7 @@
 //! The asking end of the programming port's protocol, for what only reads.
 
-use crate::args::ReadArgs;
-use crate::commands::run::lines::wire::{self, Wire};
-use crate::commands::{Failure, eprint_line, interruption};
-use rungc_rt::comm::{LineFormat, Parity, fx_port};
+use crate::{Error, Line};
+use rungc_rt::comm::fx_port;
 use std::time::{Duration, Instant};
 
 const STX: u8 = 0x02;
@@ -15,12 +13,19 @@ const NAK: u8 = 0x15;
 /// More characters than an answer has.
 const LONGEST: usize = 1024;
 
-/// A line to a PLC.
-pub struct Client {
-    wire: Wire,
-    name: String,
-    timeout: Duration,
-    retries: u32,
+/// How long a PLC may take to answer, and how often it is asked.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Patience {
+    /// Time to wait for an answer.
+    pub timeout: Duration,
+    /// Number of further requests if an answer is missing or damaged.
+    pub retries: u32,
+}
+
+/// Asking end of a line.
+pub struct Client<L> {
+    line: L,
+    patience: Patience,
 }
 
 /// Reply of a PLC.
@@ -34,41 +39,25 @@ pub enum Reply {
     Data(Vec<u8>),
 }
 
-impl Client {
-    /// Opens the line.
-    pub fn open(args: &ReadArgs) -> Result<Self, Failure> {
-        let name = args.port.to_string();
-        let format = LineFormat {
-            bits_per_second: args.baud,
-            data_bits: 7,
-            parity: Parity::Even,
-            ..LineFormat::new()
-        };
-        let wire = wire::open(&args.port);
-        let mut wire =
-            wire.map_err(|error| Failure::Because(wire::cannot_open(&args.port, &error)))?;
-        if let Err(error) = wire.set_format(format) {
-            // A pseudo-terminal has no parity, and needs none.
-            let rate = args.baud;
-            eprint_line(&format!(
-                "rungc: {name} cannot be set to {rate} bit/s, 7 data bits, even parity: {error}"
-            ));
-        }
-        Ok(Client {
-            wire,
-            name,
-            timeout: Duration::from_millis(args.timeout),
-            retries: args.retries,
-        })
+impl<L: Line> Client<L> {
+    /// A client on an open line, which has 7 data bits, even parity and 1 stop bit.
+    pub fn new(line: L, patience: Patience) -> Self {
+        Client { line, patience }
     }
 
     /// Failure to read the PLC.
-    pub fn failure(&self, why: &str) -> Failure {
-        Failure::Because(format!("{}: {why}", self.name))
+    pub fn failure(&self, why: &str) -> Error {
+        Error {
+            line: self.line.name(),
+            why: why.to_string(),
+        }
     }
 
     /// Asks whether a PLC is there.
-    pub fn greet(&mut self) -> Result<(), Failure> {
+    ///
+    /// # Errors
+    /// No answer, or one that no PLC gives.
+    pub fn greet(&mut self) -> Result<(), Error> {
         match self.exchange(&[ENQ])? {
             Reply::Ack => Ok(()),
             _ => Err(self.failure("what answers is not the programming port of a PLC")),
@@ -76,7 +65,10 @@ impl Client {
     }
 
     /// Sends a command.
-    pub fn request(&mut self, text: &[u8]) -> Result<Reply, Failure> {
+    ///
+    /// # Errors
+    /// No answer, or none that is whole.
+    pub fn request(&mut self, text: &[u8]) -> Result<Reply, Error> {
         let sum = text.iter().fold(ETX, |sum, &c| sum.wrapping_add(c));
         let mut frame = vec![STX];
         frame.extend(text);
@@ -86,7 +78,10 @@ impl Client {
     }
 
     /// The bytes that a command reads; nothing if the PLC rejects it.
-    pub fn data(&mut self, text: &[u8], count: usize) -> Result<Option<Vec<u8>>, Failure> {
+    ///
+    /// # Errors
+    /// No answer, or one of another length.
+    pub fn data(&mut self, text: &[u8], count: usize) -> Result<Option<Vec<u8>>, Error> {
         let Reply::Data(digits) = self.request(text)? else {
             return Ok(None);
         };
@@ -98,9 +93,9 @@ impl Client {
     }
 
     /// Sends a request until an answer comes.
-    fn exchange(&mut self, request: &[u8]) -> Result<Reply, Failure> {
+    fn exchange(&mut self, request: &[u8]) -> Result<Reply, Error> {
         let mut why = "";
-        for attempt in 0..=self.retries {
+        for attempt in 0..=self.patience.retries {
             if attempt > 0 {
                 self.read_away()?;
             }
@@ -110,18 +105,18 @@ impl Client {
                 Err(fault) => why = fault,
             }
         }
-        let attempts = self.retries + 1;
+        let attempts = self.patience.retries + 1;
         Err(self.failure(&format!("{why} (asked {attempts} times)")))
     }
 
-    fn send(&mut self, request: &[u8]) -> Result<(), Failure> {
-        let sent = self.wire.send(request, self.timeout);
+    fn send(&mut self, request: &[u8]) -> Result<(), Error> {
+        let sent = self.line.send(request, self.patience.timeout);
         sent.map_err(|error| self.failure(&error.to_string()))
     }
 
     /// The answer, or what is wrong with it.
-    fn receive(&mut self) -> Result<Result<Reply, &'static str>, Failure> {
-        let deadline = Instant::now() + self.timeout;
+    fn receive(&mut self) -> Result<Result<Reply, &'static str>, Error> {
+        let deadline = Instant::now() + self.patience.timeout;
         let mut received = Vec::new();
         while Instant::now() < deadline {
             received.extend(self.read()?);
@@ -153,22 +148,18 @@ impl Client {
 
     /// Reads away what still comes, for as long as an answer may take: a late answer must not be mistaken for that to
     /// another request.
-    fn read_away(&mut self) -> Result<(), Failure> {
-        let deadline = Instant::now() + self.timeout;
+    fn read_away(&mut self) -> Result<(), Error> {
+        let deadline = Instant::now() + self.patience.timeout;
         while Instant::now() < deadline {
             self.read()?;
         }
         Ok(())
     }
 
-    /// Received characters; empty if the line was silent. An interruption ends the command here, however long an answer
-    /// may take.
-    fn read(&mut self) -> Result<Vec<u8>, Failure> {
-        if interruption::is_requested() {
-            return Err(self.failure("interrupted"));
-        }
+    /// Received characters; empty if the line was silent.
+    fn read(&mut self) -> Result<Vec<u8>, Error> {
         let mut buffer = [0; LONGEST];
-        match self.wire.receive(&mut buffer) {
+        match self.line.receive(&mut buffer) {
             Ok(count) => Ok(buffer[..count].to_vec()),
             Err(error) => Err(self.failure(&error.to_string())),
         }

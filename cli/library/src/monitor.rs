@@ -1,0 +1,112 @@
+//! A program beside the PLC that runs it: the values that the PLC has, in a session of the program here.
+
+use rungc_analysis::resolve::resolve;
+use rungc_analysis::xref::CrossReference;
+use rungc_frontend::image;
+use rungc_interp::Machine;
+use rungc_models::Model;
+use rungc_models::runs::{IndexAlias, name_class, rt_class};
+use rungc_monitor::{Item, Sample};
+use rungc_rt::{Class, Plc as _, special};
+use rungc_sim::Session;
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Program};
+use std::collections::BTreeSet;
+
+/// Shows that the PLC is in RUN.
+const RUNS: Item = Item::Bit(Class::M, special::M_RUNNING.number());
+
+/// The values of the devices that the instructions of a program name, and whether the PLC is in RUN. Those that only an
+/// index register leads to are not among them.
+pub fn items(program: &Program, model: &'static Model) -> BTreeSet<Item> {
+    let (resolved, _) = resolve(program, model);
+    let rows = CrossReference::new(&resolved).rows.into_iter();
+    let devices = rows.flat_map(|row| {
+        let class = row.first.class;
+        (row.first.number..=row.last.number).map(move |number| Device { class, number })
+    });
+    let items = devices.flat_map(|device| items_of(device, model));
+    items.chain([RUNS]).collect()
+}
+
+/// The values of a device: of a timer or counter its contact and its current value, of an index register its special
+/// register.
+pub fn items_of(device: Device, model: &Model) -> Vec<Item> {
+    let mut aliases = model.index_aliases.iter();
+    let alias = aliases.find(|alias| (alias.class, alias.index) == (device.class, device.number));
+    if let Some(alias) = alias {
+        return vec![Item::Word(Class::D, alias.register.number())];
+    }
+    let Some(class) = rt_class(device.class) else {
+        return Vec::new();
+    };
+    let bit = Item::Bit(class, device.number);
+    let word = Item::Word(class, device.number);
+    match device.class {
+        DeviceClass::X | DeviceClass::Y | DeviceClass::M | DeviceClass::S => vec![bit],
+        DeviceClass::T | DeviceClass::C => vec![bit, word],
+        _ => vec![word],
+    }
+}
+
+/// The device that a value belongs to.
+pub fn device_of(item: Item) -> Device {
+    let (Item::Bit(class, number) | Item::Word(class, number)) = item;
+    Device {
+        class: name_class(class),
+        number,
+    }
+}
+
+/// Brings a session that has not begun to where a PLC stands. Edges are over, as after scans in which nothing changes:
+/// what the program remembers of earlier scans to notice them, a PLC does not show.
+pub fn take_over(session: &mut Session, sample: &Sample) {
+    give(session.machine_mut(), sample);
+    // The first scan initialises, the second one sees what the PLC has, and both write devices.
+    for _ in 0..2 {
+        session.scan(0);
+        give(session.machine_mut(), sample);
+    }
+    if sample.values.get(&RUNS) == Some(&0) {
+        session.set_running(false);
+        give(session.machine_mut(), sample);
+    }
+}
+
+/// The first step at which the program memory of a PLC differs from a program; `None` if they are the same.
+///
+/// # Errors
+/// Instructions of the program whose machine code is not known.
+pub fn first_difference(program: &Program, memory: &[u8]) -> Result<Option<usize>, Diagnostics> {
+    const WORD: usize = 2;
+    let own = image::write(program)?;
+    let steps = |image: &[u8]| -> Vec<[u8; WORD]> {
+        let code = image.get(image::program_start(image)..).unwrap_or_default();
+        code.chunks_exact(WORD)
+            .map(|word| [word[0], word[1]])
+            .collect()
+    };
+    let (own, there) = (steps(&own), steps(memory));
+    let differs = own.iter().zip(&there).position(|(own, there)| own != there);
+    let shorter = own.len().min(there.len());
+    Ok(differs.or_else(|| (own.len() != there.len()).then_some(shorter)))
+}
+
+fn give(machine: &mut Machine, sample: &Sample) {
+    for (&item, &value) in &sample.values {
+        // What the program does not store has no part in it.
+        let _ = match item {
+            Item::Bit(class, number) => machine.set_bit(class, number, value != 0),
+            Item::Word(Class::C, number) if machine.counter32(number).is_some() => {
+                machine.set_counter32(number, value)
+            }
+            Item::Word(class, number) => {
+                let mut aliases = machine.module().model.index_aliases.iter();
+                let is_shown = |alias: &&IndexAlias| alias.is_within(number, number);
+                let alias = aliases.find(|alias| class == Class::D && is_shown(alias));
+                let index = alias.and_then(|alias| Some((rt_class(alias.class)?, alias.index)));
+                let (class, number) = index.unwrap_or((class, number));
+                machine.set_word(class, number, value as i16)
+            }
+        };
+    }
+}

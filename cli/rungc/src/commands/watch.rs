@@ -1,0 +1,197 @@
+//! `rungc watch`: the devices of a PLC as they change.
+
+use super::line::{self, Line};
+use super::read::compare;
+use super::subject::{self, Subject};
+use super::{Context, Failure, Outcome, Result, interruption, print_text, read_as_written};
+use crate::args::{WatchArgs, WatchTo};
+use crate::report::Reporter;
+use rungc::Names;
+use rungc::monitor::{device_of, items, items_of};
+use rungc_lower::compile;
+use rungc_monitor::{Item, Plc, Sample};
+use rungc_syntax::{Device, DeviceClass, Program};
+use std::fmt::Write as _;
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// Pause between two looks for an interruption.
+const NAP: Duration = Duration::from_millis(50);
+
+/// Shows the devices of a PLC.
+pub fn run(args: &WatchArgs, cx: Context) -> Result {
+    let (input, devices) = args.subject();
+    let subject = subject::one(&input, cx)?;
+    let mut reporter = Reporter::new(&subject.reporting, cx, false);
+    let outcome = watch(args, devices, &subject, (&mut reporter, cx));
+    reporter.finish()?;
+    outcome
+}
+
+fn watch(
+    args: &WatchArgs,
+    devices: Vec<&str>,
+    subject: &Subject,
+    (reporter, cx): (&mut Reporter, Context),
+) -> Result {
+    let read = read_as_written(subject, reporter)?;
+    let program = &read.program;
+    let items = wanted(&devices, subject, program)?;
+    interruption::note();
+    let mut plc = line::plc(&args.plc)?;
+    cx.note(&format!("    Watching {}", plc.title()));
+    if args.compare {
+        let compared = compare(&mut plc, program)?;
+        cx.note(&format!("             {compared}"));
+    }
+    let watched = Watched {
+        args,
+        program,
+        items,
+    };
+    watched.follow(&mut plc, cx)
+}
+
+/// The values of the devices that are named, or of the inputs and outputs of a program.
+fn wanted(
+    devices: &[&str],
+    subject: &Subject,
+    program: &Program,
+) -> std::result::Result<Vec<Item>, Failure> {
+    let model = compile::model(program, &subject.options());
+    if devices.is_empty() {
+        let is_terminal = |item: &Item| {
+            let class = device_of(*item).class;
+            matches!(class, DeviceClass::X | DeviceClass::Y)
+        };
+        return Ok(items(program, model)
+            .into_iter()
+            .filter(is_terminal)
+            .collect());
+    }
+    let names = Names::of(program);
+    let mut wanted = Vec::new();
+    for name in devices {
+        let device = names.device(name).map_err(Failure::Because)?;
+        if !model.has(device.class, device.number) {
+            let title = model.title;
+            let why = format!("`{device}` does not exist on {title}");
+            return Err(Failure::Because(why));
+        }
+        wanted.extend(items_of(device, model));
+    }
+    Ok(wanted)
+}
+
+/// Values of a PLC.
+struct Watched<'a> {
+    args: &'a WatchArgs,
+    program: &'a Program,
+    items: Vec<Item>,
+}
+
+impl Watched<'_> {
+    /// Looks at the values until the time is over, or the user ends it.
+    fn follow(&self, plc: &mut Plc<Line>, cx: Context) -> Result {
+        let begin = Instant::now();
+        let end = self.args.duration.map(Duration::from_millis);
+        let mut last: Option<Sample> = None;
+        loop {
+            let look = Instant::now();
+            let sample = match plc.read(self.items.iter().copied()) {
+                Err(_) if interruption::is_requested() && last.is_some() => break,
+                sample => sample?,
+            };
+            let ms = look.duration_since(begin).as_millis();
+            match &last {
+                None => {
+                    self.report_hidden(&sample, cx);
+                    print_text(&self.whole(ms, &sample))?;
+                }
+                Some(last) => print_text(&self.changes(ms, last, &sample))?,
+            }
+            last = Some(sample);
+            let is_over = end.is_some_and(|end| begin.elapsed() >= end);
+            if self.args.once || is_over || !self.wait(look) {
+                break;
+            }
+        }
+        Ok(Outcome::Success)
+    }
+
+    /// Waits for the next look; false if the user ends it.
+    fn wait(&self, look: Instant) -> bool {
+        let every = Duration::from_millis(self.args.every);
+        while !interruption::is_requested() {
+            let Some(rest) = every
+                .checked_sub(look.elapsed())
+                .filter(|rest| !rest.is_zero())
+            else {
+                return true;
+            };
+            thread::sleep(rest.min(NAP));
+        }
+        false
+    }
+
+    fn report_hidden(&self, sample: &Sample, cx: Context) {
+        let hidden = sample
+            .hidden
+            .iter()
+            .map(|&item| device_of(item).to_string());
+        let mut hidden: Vec<String> = hidden.collect();
+        hidden.dedup();
+        if !hidden.is_empty() {
+            let hidden = hidden.join(", ");
+            cx.note(&format!(
+                "             not shown by the port of the PLC: {hidden}"
+            ));
+        }
+    }
+
+    /// All values at first.
+    fn whole(&self, ms: u128, sample: &Sample) -> String {
+        let mut out = String::new();
+        if self.args.to == WatchTo::Csv {
+            out.push_str("ms,device,value\n");
+        }
+        for (&item, &value) in &sample.values {
+            self.row(&mut out, ms, item, value);
+        }
+        out
+    }
+
+    /// What has changed since the last look.
+    fn changes(&self, ms: u128, last: &Sample, sample: &Sample) -> String {
+        let mut out = String::new();
+        for (item, &value) in &sample.values {
+            if last.values.get(item) != Some(&value) {
+                self.row(&mut out, ms, *item, value);
+            }
+        }
+        out
+    }
+
+    fn row(&self, out: &mut String, ms: u128, item: Item, value: i32) {
+        let device = device_of(item);
+        let _ = match self.args.to {
+            WatchTo::Csv => writeln!(out, "{ms},{},{value}", name(item, device)),
+            WatchTo::Text => {
+                let comment = self.program.comments.get(&device);
+                let comment = comment.map_or("", String::as_str);
+                let seconds = ms as f64 / 1000.0;
+                let name = name(item, device);
+                let row = format!("{seconds:>9.1} s  {name:<12} {value:>11}  {comment}");
+                writeln!(out, "{}", row.trim_end())
+            }
+        };
+    }
+}
+
+/// Name of a value: of a timer or counter its contact and its value are apart.
+fn name(item: Item, device: Device) -> String {
+    match (item, device.class) {
+        (Item::Bit(..), DeviceClass::T | DeviceClass::C) => format!("{device} contact"),
+        _ => device.to_string(),
+    }
+}
