@@ -11,6 +11,7 @@ use rungc::monitor::{device_of, items, items_of};
 use rungc_lower::compile;
 use rungc_monitor::{Item, Plc, Sample};
 use rungc_syntax::{Device, DeviceClass, Program};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -52,25 +53,22 @@ fn watch(
     watched.follow(&mut plc, cx)
 }
 
-/// The values of the devices that are named, or of the inputs and outputs of a program.
+/// The values of the devices that are named, or of the inputs and outputs of a program, each with its device.
 fn wanted(
     devices: &[&str],
     subject: &Subject,
     program: &Program,
-) -> std::result::Result<Vec<Item>, Failure> {
+) -> std::result::Result<BTreeMap<Item, Device>, Failure> {
     let model = compile::model(program, &subject.options());
     if devices.is_empty() {
-        let is_terminal = |item: &Item| {
-            let class = device_of(*item).class;
-            matches!(class, DeviceClass::X | DeviceClass::Y)
-        };
-        return Ok(items(program, model)
-            .into_iter()
-            .filter(is_terminal)
-            .collect());
+        let named = items(program, model).into_iter();
+        let devices = named.map(|item| (item, device_of(item)));
+        let terminals =
+            devices.filter(|(_, device)| matches!(device.class, DeviceClass::X | DeviceClass::Y));
+        return Ok(terminals.collect());
     }
     let names = Names::of(program);
-    let mut wanted = Vec::new();
+    let mut wanted = BTreeMap::new();
     for name in devices {
         let device = names.device(name).map_err(Failure::Because)?;
         if !model.has(device.class, device.number) {
@@ -78,7 +76,8 @@ fn wanted(
             let why = format!("`{device}` does not exist on {title}");
             return Err(Failure::Because(why));
         }
-        wanted.extend(items_of(device, model));
+        let own = items_of(device, model).into_iter();
+        wanted.extend(own.map(|item| (item, device)));
     }
     Ok(wanted)
 }
@@ -87,7 +86,7 @@ fn wanted(
 struct Watched<'a> {
     args: &'a WatchArgs,
     program: &'a Program,
-    items: Vec<Item>,
+    items: BTreeMap<Item, Device>,
 }
 
 impl Watched<'_> {
@@ -98,7 +97,7 @@ impl Watched<'_> {
         let mut last: Option<Sample> = None;
         loop {
             let look = Instant::now();
-            let sample = match plc.read(self.items.iter().copied()) {
+            let sample = match plc.read(self.items.keys().copied()) {
                 Err(_) if interruption::is_requested() && last.is_some() => break,
                 sample => sample?,
             };
@@ -135,11 +134,8 @@ impl Watched<'_> {
     }
 
     fn report_hidden(&self, sample: &Sample, cx: Context) {
-        let hidden = sample
-            .hidden
-            .iter()
-            .map(|&item| device_of(item).to_string());
-        let mut hidden: Vec<String> = hidden.collect();
+        let hidden = sample.hidden.iter().filter_map(|item| self.items.get(item));
+        let mut hidden: Vec<String> = hidden.map(Device::to_string).collect();
         hidden.dedup();
         if !hidden.is_empty() {
             let hidden = hidden.join(", ");
@@ -173,7 +169,9 @@ impl Watched<'_> {
     }
 
     fn row(&self, out: &mut String, ms: u128, item: Item, value: i32) {
-        let device = device_of(item);
+        let Some(&device) = self.items.get(&item) else {
+            return;
+        };
         let _ = match self.args.to {
             WatchTo::Csv => writeln!(out, "{ms},{},{value}", name(item, device)),
             WatchTo::Text => {
