@@ -30,6 +30,7 @@ use std::path::{Path, PathBuf};
 
 pub use csv::ExportHead;
 pub use encoding_rs::Encoding;
+pub use gx::sources::{self, Sources};
 pub use gx::table::has_code;
 pub use il::read_text;
 pub use learn::{Lesson, Mismatch, learn};
@@ -51,6 +52,8 @@ pub struct Read {
     pub unproven: Vec<Unproven>,
     /// Head of a list export, if this is one; [`print::to_csv_with`] writes it again.
     pub export_head: Option<ExportHead>,
+    /// Sources of a GX Works2 project whose directory can be read.
+    pub sources: Option<Box<Sources>>,
 }
 
 /// Options of a reader.

@@ -25,6 +25,21 @@ impl<'b> Fields<'b> {
         Some(taken)
     }
 
+    /// The fields of the next `count` bytes, whose offsets are those of the file.
+    pub fn inside(&mut self, count: usize) -> Option<Fields<'b>> {
+        let at = self.at;
+        self.take(count)?;
+        Some(Fields {
+            bytes: &self.bytes[..self.at],
+            at,
+        })
+    }
+
+    /// The bytes that have not been read.
+    pub fn rest(&self) -> &'b [u8] {
+        &self.bytes[self.at..]
+    }
+
     pub fn u8(&mut self) -> Option<u8> {
         self.take(1).map(|bytes| bytes[0])
     }

@@ -9,6 +9,8 @@ pub(crate) mod table;
 mod tokens;
 mod works2;
 
+pub use works2::sources;
+
 pub(crate) use program::hex;
 pub(crate) use tokens::steps;
 pub(crate) use works2::read as read_gxw;

@@ -212,6 +212,15 @@ impl Prefixes {
         }
     }
 
+    /// The name of a label with them, as the editor writes it: `K4Lamps`, `TableZ0`, `Flags.3`.
+    pub fn around(self, name: &str) -> String {
+        let digits = self.digits.map(|digits| format!("K{digits}"));
+        let bit = self.bit.map(|bit| format!(".{bit:X}"));
+        let index = self.index.map(|index| index.to_string());
+        let [digits, bit, index] = [digits, bit, index].map(Option::unwrap_or_default);
+        format!("{digits}{name}{bit}{index}")
+    }
+
     /// An address with them; nothing if no module is named, or they do not go together.
     pub fn buffer(self, address: u32) -> Option<OperandKind> {
         let (None, None, false) = (self.digits, self.bit, self.twice) else {

@@ -14,4 +14,5 @@ mod plcopen_configuration;
 mod plcopen_modifiers;
 mod print;
 mod robust;
+mod sources;
 mod works2;

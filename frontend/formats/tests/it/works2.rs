@@ -2,7 +2,8 @@
 
 use crate::fixture;
 use crate::fixture::{
-    Part, drawing, gh, ladder, prj, project, qcd, replace, res, simple, structured_text, tsk, wpa,
+    Part, chart, gh, ladder, prj, project, qcd, replace, res, simple, sources, structured_text,
+    tsk, wpa,
 };
 use rungc_frontend::{Read, ReadOptions, read_bytes, read_bytes_with};
 use rungc_syntax::{Device, DeviceClass, DeviceRun, SourceKind};
@@ -228,8 +229,8 @@ fn the_age_of_a_compiled_program_can_be_confirmed() {
 #[test]
 fn drawings_and_labels_are_read_as_compiled() {
     for (source, what) in [
-        (drawing(1, 0xD0), "structured ladder or FBD"),
-        (drawing(1, 0xF0), "SFC"),
+        (sources::diagram(1, &[]), "structured ladder or FBD"),
+        (chart(1), "SFC"),
         (
             ladder(1, &[&[0x00], b"\xDFstart", &[0x34]]),
             "a ladder with labels",

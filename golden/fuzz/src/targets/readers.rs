@@ -1,7 +1,7 @@
 //! Files: whatever a file contains, it is read or rejected, with places that lie in it.
 
 use super::Target;
-use rungc_frontend::{Names, ReadOptions};
+use rungc_frontend::{Names, ReadOptions, sources};
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_project::Project;
 use rungc_syntax::Source;
@@ -46,6 +46,33 @@ fn read(input: &[u8], options: &ReadOptions) {
             "{finding:?}"
         );
     }
+}
+
+/// Parts of a GX Works2 project that its container holds. The first byte selects the damaged one.
+const PARTS: [&str; 8] = [
+    "MAIN.Program.pou",
+    "MAIN.Labels.lh",
+    "Global1.gh",
+    "Axis.str",
+    "MAIN.tsk",
+    "Half.Program\\Maths.lnb",
+    "ESCompiler.stg",
+    "press.prj",
+];
+
+/// Sources of a GX Works2 project, and all that is written of them.
+fn sources(input: &[u8]) {
+    let Some((first, content)) = input.split_first() else {
+        return;
+    };
+    let name = PARTS[usize::from(*first) % PARTS.len()];
+    let sources = sources::read_parts(&[(name, content)], &ReadOptions::default());
+    for unread in &sources.unread {
+        assert!(!unread.what.is_empty(), "{unread:?}");
+    }
+    let files = [sources.to_st(), sources.to_label_tables()].concat();
+    assert!(files.iter().all(|file| !file.path.contains("..")));
+    let _ = (sources.to_labels(), sources.devices());
 }
 
 fn settings(input: &[u8]) {
@@ -105,6 +132,7 @@ pub(super) fn targets() -> Vec<Target> {
         ),
         target("gx-developer", program, &[]),
         target("gx-works2", program, &[]),
+        target("gx-works2-sources", sources, &[]),
         target("memory-image", program, &[]),
         target("plcopen", plcopen, &[]),
         target(

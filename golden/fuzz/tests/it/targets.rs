@@ -104,7 +104,7 @@ const NO_READERS: [&str; 7] = [
 
 /// Readers and decoders, each with a target that calls it.
 #[rustfmt::skip]
-const READERS: [(&str, &str); 46] = [
+const READERS: [(&str, &str); 47] = [
     ("firmware/src/board.rs parse", "board"),
     ("firmware/src/flash.rs read", "flash-file"),
     ("firmware/src/flash/uf2.rs read", "flash-file"),
@@ -112,6 +112,7 @@ const READERS: [(&str, &str); 46] = [
     ("frontend/formats/src/gx/program.rs read", "gx-developer"),
     ("frontend/formats/src/gx/works2/container.rs open", "gx-works2"),
     ("frontend/formats/src/gx/works2/objects.rs read", "gx-works2"),
+    ("frontend/formats/src/gx/works2/sources/gather.rs read_parts", "gx-works2-sources"),
     ("frontend/formats/src/il/mod.rs read_text", "instruction-list"),
     ("frontend/formats/src/lib.rs read_bytes", "memory-image"),
     ("frontend/formats/src/lib.rs read_bytes_with", "plcopen"),

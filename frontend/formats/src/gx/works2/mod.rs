@@ -10,6 +10,7 @@ mod container;
 mod mentions;
 mod objects;
 mod recovery;
+pub mod sources;
 
 use super::program::{self, Code};
 use super::tokens::{self, Bare, Token};
@@ -20,7 +21,8 @@ use container::{Container, Row};
 use encoding_rs::UTF_16LE;
 use memchr::memmem;
 use objects::{Compiled, Language, Pou, Project, Task};
-use rungc_syntax::{Diagnostic, Diagnostics, Parameters, SourceKind, Span, codes};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, Parameters, SourceKind, Span, codes};
+use sources::Sources;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The stream of the outer file that holds the project's data.
@@ -130,7 +132,15 @@ struct Works<'o> {
     sources: Vec<Part>,
     compiled: Vec<Part>,
     tasks: Vec<Part>,
+    globals: Vec<Part>,
     labels: Vec<Part>,
+    structures: Vec<Part>,
+    library_sources: Vec<Part>,
+    library_globals: Vec<Part>,
+    library_labels: Vec<Part>,
+    library_structures: Vec<Part>,
+    /// The compiler's store.
+    store: Option<Part>,
     comments: Option<Part>,
     parameters: Option<Part>,
 }
@@ -141,32 +151,44 @@ type Source<'w> = (&'w Part, Pou);
 impl<'o> Works<'o> {
     /// Takes the parts that define the program; reports why not, if these are more than a project has.
     fn open(inner: &Container, rows: &[Row], options: &'o ReadOptions) -> Result<Self, String> {
-        let parts = |ending: &str| -> Result<Vec<Part>, String> {
+        let part = |row: &Row| {
+            Some(Part {
+                name: row.name.clone(),
+                folder: row.folder.clone(),
+                bytes: inner.stream(&row.id)?,
+            })
+        };
+        Works::of(options, |ending| {
             let wanted = || rows.iter().filter(|row| ends_with(&row.name, ending));
             if wanted().nth(MAX_PARTS).is_some() {
                 return Err(format!(
                     "the project lists more than {MAX_PARTS} parts `*{ending}`"
                 ));
             }
-            let part = |row: &Row| {
-                Some(Part {
-                    name: row.name.clone(),
-                    folder: row.folder.clone(),
-                    bytes: inner.stream(&row.id)?,
-                })
-            };
             Ok(wanted().filter_map(part).collect())
-        };
+        })
+    }
+
+    /// The project whose parts with an ending `parts` gives.
+    fn of(
+        options: &'o ReadOptions,
+        parts: impl Fn(&str) -> Result<Vec<Part>, String>,
+    ) -> Result<Self, String> {
         let project = parts(".prj")?;
-        let mut labels = parts(".gh")?;
-        labels.extend(parts(".lh")?);
         Ok(Works {
             options,
             project: project.iter().find_map(|part| Project::read(&part.bytes)),
             sources: parts(".pou")?,
             compiled: parts(".res")?,
             tasks: parts(".tsk")?,
-            labels,
+            globals: parts(".gh")?,
+            labels: parts(".lh")?,
+            structures: parts(".str")?,
+            library_sources: parts(".lnb")?,
+            library_globals: parts(".lng")?,
+            library_labels: parts(".lnl")?,
+            library_structures: parts(".lns")?,
+            store: parts("ESCompiler.stg")?.pop(),
             comments: parts("COMMENT.qcd")?.pop(),
             parameters: parts("Param.wpa")?.pop(),
         })
@@ -189,13 +211,19 @@ impl<'o> Works<'o> {
         let order = parameters.as_ref().map_or(&[][..], |p| &p.programs);
         let file = self.program_file(order, &mut found)?;
         let pous = self.task_pous(file, &mut found);
-        let mut read = self.program(name, file, &pous, &mut found)?;
+        let sources = self.gather();
+        let mut read = self.program(name, file, &pous, &sources, &mut found)?;
         self.name_unused(&mut found);
         self.take_comments(&mut read, &mut found);
         let title = self.project.as_ref().and_then(|p| clean(&p.title));
         read.program.title = title.map(Into::into);
         read.program.cpu = cpu;
         read.program.parameters = parameters;
+        sources
+            .notes()
+            .into_iter()
+            .for_each(|note| found.push(note));
+        read.sources = Some(Box::new(sources));
         read.diagnostics.extend(found.iter().cloned());
         Ok(read)
     }
@@ -261,6 +289,7 @@ impl<'o> Works<'o> {
         name: &str,
         file: &Part,
         pous: &[String],
+        all: &Sources,
         found: &mut Diagnostics,
     ) -> Result<Read, String> {
         let compiled = Compiled::read(&file.bytes)
@@ -310,7 +339,7 @@ impl<'o> Works<'o> {
             return Ok(refused(name, &what, &codes::NOT_COMPILED, message));
         };
         let code = &file.bytes[compiled.start..compiled.end];
-        Ok(match self.age(compiled, code, &sources) {
+        Ok(match self.age(compiled, code, &sources, all) {
             Age::Newer => {
                 found.push(shown_as_compiled(format!(
                     "{what}: it is shown as compiled"
@@ -364,7 +393,7 @@ impl<'o> Works<'o> {
     }
 
     /// Age of a compiled program relative to its sources.
-    fn age(&self, compiled: &Compiled, code: &[u8], sources: &[Source]) -> Age {
+    fn age(&self, compiled: &Compiled, code: &[u8], sources: &[Source], all: &Sources) -> Age {
         let newer = |(_, pou): &Source| compiled.created >= pou.saved;
         if sources.iter().all(newer) {
             return Age::Newer;
@@ -381,20 +410,29 @@ impl<'o> Works<'o> {
                 None => Age::Newer,
             };
         }
-        let labels = self.labels.iter();
-        let labels = labels.flat_map(|part| objects::labels(&part.bytes));
-        let labels: BTreeMap<_, _> = labels
-            .filter_map(|(name, device)| Some((name.to_lowercase(), mentions::device(&device)?)))
-            .collect();
+        let globals = || all.globals.iter().flat_map(|table| &table.labels);
+        // A label of the POU hides a global one.
+        let labels = |part: &Part| -> BTreeMap<String, Device> {
+            let own = all.pou(part.stem()).into_iter().flat_map(|pou| &pou.labels);
+            let devices = globals().chain(own).map(|label| {
+                let device = mentions::device(&label.device);
+                (label.name.to_lowercase(), device)
+            });
+            let devices = devices.collect::<BTreeMap<_, _>>().into_iter();
+            devices
+                .filter_map(|(name, device)| Some((name, device?)))
+                .collect()
+        };
         let has = mentions::of_ladder(code, &BTreeMap::new());
         let missing: Vec<_> = sources
             .iter()
             .flat_map(|(part, pou)| {
                 let content = &part.bytes[pou.start..pou.end];
                 match pou.language {
-                    Language::Ladder => mentions::of_ladder(content, &labels),
+                    Language::Ladder => mentions::of_ladder(content, &labels(part)),
                     Language::StructuredText => {
-                        mentions::of_text(&UTF_16LE.decode_without_bom_handling(content).0, &labels)
+                        let text = UTF_16LE.decode_without_bom_handling(content).0;
+                        mentions::of_text(&text, &labels(part))
                     }
                     _ => BTreeSet::new(),
                 }
@@ -436,7 +474,8 @@ impl<'o> Works<'o> {
     fn named(&self, pous: &[&Part]) -> BTreeSet<String> {
         let names: BTreeSet<_> = pous.iter().map(|part| part.stem()).collect();
         let mut named = BTreeSet::new();
-        for part in self.sources.iter().chain(&self.labels) {
+        let tables = self.globals.iter().chain(&self.labels);
+        for part in self.sources.iter().chain(tables) {
             // Texts in UTF-16 begin at even and at odd offsets.
             for bytes in [&part.bytes[..], part.bytes.get(1..).unwrap_or_default()] {
                 let (text, _) = UTF_16LE.decode_without_bom_handling(bytes);

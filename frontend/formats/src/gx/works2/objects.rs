@@ -1,12 +1,13 @@
 //! The parts of a GX Works2 project that define its program.
 
 use crate::gx::fields::Fields;
+use rungc_syntax::{DeviceClass, DeviceRun};
 
 /// A moment: year, month, day, hour, minute, second, millisecond, in the order in which moments compare.
 pub(super) type Time = [u16; 7];
 
 /// Reads the head of `.pou`, `.res`, `.tsk` and `.gh`: title, comment, 22 bytes, a time, 4 bytes.
-fn head(fields: &mut Fields) -> Option<Time> {
+pub(super) fn head(fields: &mut Fields) -> Option<Time> {
     fields.text()?;
     fields.text()?;
     fields.take(22)?;
@@ -28,6 +29,40 @@ pub(super) struct Project {
     pub cpu: String,
     /// Code page of statements, notes and texts in tokens.
     pub code_page: u32,
+    /// Devices reserved for labels without one.
+    pub reserved: Vec<DeviceRun>,
+}
+
+/// The classes whose reserved devices a project states, in their order; `None` where it states nothing for an FX CPU.
+const RESERVED: [Option<DeviceClass>; 11] = [
+    Some(DeviceClass::D),
+    None,
+    None,
+    // Timers of 100 ms.
+    Some(DeviceClass::T),
+    None,
+    Some(DeviceClass::C),
+    Some(DeviceClass::M),
+    None,
+    Some(DeviceClass::P),
+    Some(DeviceClass::S),
+    // Timers of 10 ms.
+    Some(DeviceClass::T),
+];
+
+/// The devices reserved for labels: pairs of the first and the last number, FFFFFFFF for none.
+fn reserved(fields: &mut Fields) -> Vec<DeviceRun> {
+    let run = |class: &Option<DeviceClass>| {
+        let (first, last) = (fields.u32()?, fields.u32()?);
+        let count = last.checked_sub(first)?.checked_add(1)?;
+        let class = class.filter(|_| first != u32::MAX)?;
+        Some(DeviceRun {
+            class,
+            first,
+            count,
+        })
+    };
+    RESERVED.iter().filter_map(run).collect()
 }
 
 impl Project {
@@ -41,6 +76,7 @@ impl Project {
             title,
             cpu,
             code_page,
+            reserved: reserved(&mut fields),
         })
     }
 }
@@ -138,48 +174,25 @@ impl Compiled {
 pub(super) struct Task {
     /// The POUs that it runs, in order.
     pub pous: Vec<String>,
+    pub event: String,
+    pub interval: String,
+    pub priority: u32,
 }
 
 impl Task {
     pub fn read(bytes: &[u8]) -> Option<Self> {
         let mut fields = Fields::new(bytes);
         head(&mut fields)?;
-        // Event, interval, priority.
-        fields.text()?;
-        fields.text()?;
-        fields.u32()?;
+        let (event, interval) = (fields.text()?, fields.text()?);
+        let priority = fields.u32()?;
         fields.u32()?;
         let count = fields.u32()?;
         let pous = (0..count).map(|_| fields.text()).collect::<Option<_>>()?;
-        Some(Task { pous })
-    }
-}
-
-/// The global labels that have a device, with it, as written: `*.gh`, as far as it can be read.
-pub(super) fn labels(bytes: &[u8]) -> Vec<(String, String)> {
-    let mut fields = Fields::new(bytes);
-    let Some(count) = head(&mut fields).and_then(|_| fields.u32()) else {
-        return Vec::new();
-    };
-    (0..count)
-        .map_while(|_| {
-            let name = fields.text()?;
-            // Type and class.
-            fields.text()?;
-            fields.u32()?;
-            let device = fields.text()?;
-            // IEC address; initial value; comment; type and its block.
-            fields.text()?;
-            fields.u32()?;
-            fields.text()?;
-            fields.text()?;
-            fields.u32()?;
-            fields.text()?;
-            fields.u32()?;
-            fields.u32()?;
-            fields.text()?;
-            Some((name, device))
+        Some(Task {
+            pous,
+            event,
+            interval,
+            priority,
         })
-        .filter(|(_, device)| !device.is_empty())
-        .collect()
+    }
 }

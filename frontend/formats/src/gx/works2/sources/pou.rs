@@ -1,0 +1,134 @@
+//! POUs: the head of their label table (`*.lh`, in a library `*.lnl`) says what they are, `*.pou` (in a library
+//! `*.lnb`) holds their source.
+
+use super::{Class, Label, LadderLine, Network};
+use crate::gx::fields::Fields;
+
+/// A program, function block or function.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Pou {
+    /// Name.
+    pub name: String,
+    /// Library that it comes from; `None` for one of the project itself.
+    pub library: Option<String>,
+    /// Kind.
+    pub kind: PouKind,
+    /// Type of a function's result; empty for others.
+    pub return_type: String,
+    /// Labels, in the order of their table.
+    pub labels: Vec<Label>,
+    /// Source.
+    pub body: Body,
+}
+
+/// Kind of a POU.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum PouKind {
+    /// Program, which tasks run.
+    Program,
+    /// Function block.
+    Block {
+        /// True if each call is replaced by the block's code ("macro code"); else the block is a subroutine of each
+        /// instance.
+        is_expanded: bool,
+        /// True if it has EN and ENO.
+        has_enable: bool,
+    },
+    /// Function, a subroutine.
+    Function,
+}
+
+impl PouKind {
+    /// Keyword of a declaration in the notation of IEC 61131-3.
+    pub const fn keyword(self) -> &'static str {
+        match self {
+            PouKind::Program => "PROGRAM",
+            PouKind::Block { .. } => "FUNCTION_BLOCK",
+            PouKind::Function => "FUNCTION",
+        }
+    }
+}
+
+/// Source of a POU.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Body {
+    /// Structured text, with line feeds.
+    Text(String),
+    /// Ladder, whose operands may be labels.
+    Ladder(Vec<LadderLine>),
+    /// Structured ladder or function block diagram.
+    Networks(Vec<Network>),
+    /// Sequential function chart, which is not decoded.
+    Chart,
+    /// A language with another number.
+    Other(u8),
+    /// Damaged or missing.
+    Unread,
+}
+
+impl Body {
+    /// Name of its language.
+    pub const fn language(&self) -> &'static str {
+        match self {
+            Body::Text(_) => "structured text",
+            Body::Ladder(_) => "ladder",
+            Body::Networks(_) => "structured ladder or FBD",
+            Body::Chart => "SFC",
+            Body::Other(_) => "in an unknown language",
+            Body::Unread => "unreadable",
+        }
+    }
+}
+
+impl Pou {
+    /// Its labels of a class, in the order of their table.
+    pub fn labels_of(&self, class: Class) -> impl Iterator<Item = &Label> {
+        self.labels.iter().filter(move |label| label.class == class)
+    }
+}
+
+/// Head of a POU's label table: what the POU is.
+pub(super) struct Head {
+    pub kind: PouKind,
+    pub return_type: String,
+}
+
+impl Head {
+    pub(super) fn read(fields: &mut Fields) -> Option<Self> {
+        // Name of the POU.
+        fields.text()?;
+        let kind = fields.u8()?;
+        fields.take(3)?;
+        let flags = fields.u32()?;
+        fields.text()?;
+        Some(Head {
+            kind: match kind {
+                0 => PouKind::Program,
+                2 => PouKind::Block {
+                    is_expanded: flags & 1 != 0,
+                    has_enable: flags & 4 != 0,
+                },
+                3 => PouKind::Function,
+                _ => return None,
+            },
+            return_type: fields.text()?,
+        })
+    }
+}
+
+/// The head that the editor puts into a box of structured text in a ladder: the block returns while EN is off.
+const INLINE_END: &str = "IST HEADER END";
+
+/// Structured text from its UTF-16, with line feeds, without the generated head of a box in a ladder.
+pub(super) fn text(content: &[u8]) -> String {
+    let (text, _) = encoding_rs::UTF_16LE.decode_without_bom_handling(content);
+    let text = text.trim_end_matches('\0').replace("\r\n", "\n");
+    match text.find(INLINE_END) {
+        Some(at) => {
+            let rest = &text[at..];
+            let rest = rest.split_once('\n').map_or("", |(_, rest)| rest);
+            rest.to_owned()
+        }
+        None => text,
+    }
+}
