@@ -172,7 +172,12 @@ fn no_program(name: &str, bytes: &[u8]) -> Read {
 
 /// The warning that a part of the project beside its program cannot be read on at an offset.
 fn damaged_part(what: &str, bytes: &[u8], at: usize) -> Diagnostic {
-    let there = match bytes.get(at..).unwrap_or_default() {
+    damaged_rest(what, bytes.get(at..).unwrap_or_default(), at)
+}
+
+/// The same of a part whose bytes from the offset on are `rest`.
+fn damaged_rest(what: &str, rest: &[u8], at: usize) -> Diagnostic {
+    let there = match rest {
         [] => ", where the data ends".to_owned(),
         rest => format!(": {}", hex(rest)),
     };

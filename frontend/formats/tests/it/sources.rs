@@ -1,7 +1,7 @@
 //! Sources of GX Works2 projects: labels, structures, POUs, and the devices that the compiler chose.
 
 use crate::fixture::sources::{COMPILED, label, labelled, locals};
-use crate::fixture::{Part, project, replace, simple};
+use crate::fixture::{Part, project, qcd, replace, simple};
 use rungc_frontend::sources::{Body, Class, Pou, PouKind, SourceFile, Sources};
 use rungc_frontend::{Read, read_bytes};
 use rungc_syntax::{Device, OperandKind};
@@ -343,4 +343,43 @@ fn devices_of_published_labels_are_in_the_compiled_list() {
     let sum = |what| sums.get(what).copied().unwrap_or_default();
     // Two belong to a second program file, which an FX CPU does not run.
     assert!(sum("chosen and used") + 2 >= sum("chosen"));
+}
+
+/// Devices without a comment have the names of their labels; a comment of the project stays.
+#[test]
+fn labels_name_devices_without_a_comment() {
+    let mut parts = labelled();
+    replace(
+        &mut parts,
+        "COMMENT.qcd",
+        qcd(&[(0x90, 100, "Green button")]),
+    );
+    let read = read(&parts);
+    let comments = read.program.comments.iter();
+    let comments: Vec<_> = comments
+        .map(|(device, text)| format!("{device} {text}"))
+        .collect();
+    assert_eq!(
+        comments,
+        [
+            "M100 Green button",
+            "M200 Axis1.Ready",
+            "M7679 Main.Count1.In",
+            "D300 Axis1.Position",
+            "D400 Table[0]",
+            "D402 Table[1]",
+            "D404 Table[2]",
+            "D999 Main.Step",
+        ]
+    );
+    let notes: Vec<_> = read
+        .diagnostics
+        .iter()
+        .filter(|found| found.code == "N0013")
+        .collect();
+    assert_eq!(
+        notes[0].message,
+        "the project holds 1 program, 1 function block, 2 functions, 1 structure, 10 labels \
+         (sources: 1 ladder, 1 structured ladder or FBD, 2 structured text)"
+    );
 }

@@ -241,7 +241,10 @@ fn drawings_and_labels_are_read_as_compiled() {
         let read = read(&parts);
         assert_eq!(texts(&read), ["LDI X002", "OUT Y002", "END"]);
         let found = read.diagnostics.iter().next().unwrap();
-        assert_eq!((found.code, codes(&read).len()), ("N0010", 1));
+        assert_eq!(found.code, "N0010");
+        // What else the project holds is a note; a ladder without a table of labels holds nothing else.
+        let others = codes(&read).split_off(1);
+        assert!(others.iter().all(|code| *code == "N0013"), "{others:?}");
         assert_eq!(
             found.message,
             format!("`MAIN` is {what}: it is shown as compiled")

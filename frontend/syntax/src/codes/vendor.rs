@@ -66,4 +66,10 @@ super::codes! {
     "Structured text, structured ladder, function block diagrams, SFC and ladders with labels are read in the form that GX Works2 compiled them to. Nothing in the project contradicts that this happened after the last change, but nothing proves it either: the stored times are those of the program file's creation. If the source was changed since, choose Compile > Rebuild All in GX Works2 and save. The file looks the same afterwards, so say in rungc.toml that this state of it is compiled: `[project] compiled = \"…\"`, with the number that the note shows. After the next change of the source, or of the compiled program, the number is another one, and the note comes back. A compiled program that contradicts its source is rejected (E0022) in any case.",
     wrong: "",
     right: "";
+
+    SOURCES = "N0013" "project-sources" Note None,
+    "what a project holds beside its compiled program",
+    "The numbers of programs, function blocks, functions, structures and labels of a GX Works2 project, and the languages of its sources. rungc runs the compiled program; `rungc convert --to st` writes the sources as text, for reading and for version control, and `--to labels` the labels. Devices without a comment have the names of their labels: `Start`, `Axis1.Ready`, `Main.Step` of a label of a POU.",
+    wrong: "",
+    right: "";
 }

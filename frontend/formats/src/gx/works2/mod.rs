@@ -219,6 +219,7 @@ impl<'o> Works<'o> {
         read.program.title = title.map(Into::into);
         read.program.cpu = cpu;
         read.program.parameters = parameters;
+        sources.name_devices(&mut read.program.comments);
         sources
             .notes()
             .into_iter()

@@ -14,6 +14,7 @@ mod ladder;
 mod networks;
 mod pou;
 mod structure;
+mod summary;
 mod table;
 mod text;
 
