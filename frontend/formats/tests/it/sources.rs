@@ -379,7 +379,7 @@ fn labels_name_devices_without_a_comment() {
         .collect();
     assert_eq!(
         notes[0].message,
-        "the project holds 1 program, 1 function block, 2 functions, 1 structure, 10 labels \
+        "the project holds 1 program, 1 function block, 2 functions, 2 structures, 10 labels \
          (sources: 1 ladder, 1 structured ladder or FBD, 2 structured text)"
     );
 }

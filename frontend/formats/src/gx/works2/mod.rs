@@ -119,9 +119,9 @@ struct Part {
 }
 
 impl Part {
-    /// The name before the first dot.
+    /// The name before the first dot, and before the file of a library.
     fn stem(&self) -> &str {
-        self.name.split('.').next().unwrap_or(&self.name)
+        self.name.split(['.', '\\']).next().unwrap_or(&self.name)
     }
 }
 

@@ -20,8 +20,8 @@ pub struct LabelDevice {
 const MAX_ELEMENTS: u32 = 1024;
 
 impl Sources {
-    /// Labels with their devices: those of global labels first, stated ones before chosen ones. A name that the compiler
-    /// has given two devices, one of them for a deleted label, is left out.
+    /// Labels with their devices: those of global labels first, stated ones before chosen ones. A name that has two
+    /// chosen devices, one of them for a deleted label, is left out.
     pub fn devices(&self) -> Vec<LabelDevice> {
         let mut devices = Devices {
             sources: self,
@@ -148,8 +148,8 @@ impl<'s> Devices<'s> {
         }
     }
 
-    /// The path of an instance whose scope has the name of a program or program file before it: a global instance stands
-    /// alone. `None` if the sources do not declare it.
+    /// The path of an instance whose scope has the name of a program or program file before it: a global instance
+    /// stands alone. `None` if the sources do not declare it.
     fn instance(&self, scope: &Scope) -> Option<String> {
         let mut names = scope.name.split('.');
         let first = names.next()?;

@@ -234,7 +234,7 @@ impl Part {
         )
     }
 
-    /// A table behind the head of the part.
+    /// A table after the head of the part.
     fn after_head<T>(&self, table: fn(&mut Fields) -> Table<T>) -> Table<T> {
         let mut fields = Fields::new(&self.bytes);
         match objects::head(&mut fields) {

@@ -16,8 +16,8 @@ pub struct Label {
     pub device: String,
     /// Address in the notation of IEC 61131-3 (`%MX0.100`); empty without a device.
     pub address: String,
-    /// Devices of the members of a structure, in the order of the members' numbers; empty for other types, and where the
-    /// compiler chooses them. Of an array of structures, the devices of its two parts.
+    /// Devices of the members of a structure, in the order of the members' numbers; empty for other types, and where
+    /// the compiler chooses them. Of an array of structures, the devices of its two parts.
     pub members: Vec<Place>,
     /// Initial value as written. A constant has one; GX Works2 compiles no other for an FX CPU.
     pub initial: String,

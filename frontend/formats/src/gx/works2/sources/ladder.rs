@@ -10,7 +10,7 @@ use std::fmt;
 /// A line of a ladder's list.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum LadderLine {
-    /// Statement above a rung. Those that begin with `;FB` frame the box of a block: its type, its instance and its pins.
+    /// Statement above a rung. Those that begin with `;FB` frame the box of a block: type, instance and pins.
     Statement(String),
     /// Instruction.
     Instruction {

@@ -1,5 +1,5 @@
-//! Sources of a GX Works2 project: labels, structures, POUs in their languages, tasks, and the devices that the compiler
-//! chose for labels without one.
+//! Sources of a GX Works2 project: labels, structures, POUs in their languages, tasks, and the devices that the
+//! compiler chose for labels without one.
 //!
 //! A part that is damaged gives what can be read of it and an entry in [`Sources::unread`]; the compiled program does
 //! not depend on it.

@@ -1,7 +1,7 @@
 //! Networks of structured ladder and function block diagrams as statements.
 //!
 //! Power and data flow from ports that give to ports that take, along wires. A coil, an output label, a function and a
-//! block are a statement each; contacts become the condition of the statements behind them. `_1`, `_2` … stand for
+//! block are a statement each; contacts become the condition of the statements after them. `_1`, `_2` … stand for
 //! results that have no label.
 
 use super::{Class, Network, Node, NodeKind, PortRole, Pou, PouKind, Sources};

@@ -1,4 +1,4 @@
-//! Sources as text: a file for each POU, structure and table of global labels, for people and for version control.
+//! Sources as text, readable and fit for version control: a file for each POU, structure and table of global labels.
 
 use super::declaration::{self, Chosen};
 use super::networks::{self, comment};
