@@ -6,8 +6,10 @@
 //!
 //! Files are compared by identity: links and other spellings of a path do not matter.
 
+mod folder;
 mod kind;
 
+pub use folder::{free, write_folder};
 pub use kind::Kind;
 
 use crate::args::{self, Emit};

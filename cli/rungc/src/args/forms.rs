@@ -136,6 +136,12 @@ pub enum ConvertTo {
     Plcopen,
     /// Lists of AutoShop's windows, each with its heading (`MAIN`, `SBR name`, `INT name I001`).
     Autoshop,
+    /// Sources of a GX Works2 project, a text for each POU, structure and table of global labels, into a folder.
+    St,
+    /// Declarations of all labels of a GX Works2 project, with the devices that the compiler chose.
+    Labels,
+    /// Label tables of a GX Works2 project as it reads them from CSV, into a folder.
+    LabelsCsv,
 }
 
 /// Languages of a program in PLCopen XML.
@@ -164,8 +170,13 @@ impl ConvertTo {
     /// Returns true for a text that a terminal can show.
     pub const fn is_text(self) -> bool {
         match self {
-            ConvertTo::Il | ConvertTo::Ladder | ConvertTo::Plcopen | ConvertTo::Autoshop => true,
-            ConvertTo::Csv | ConvertTo::Comments | ConvertTo::Image => false,
+            ConvertTo::Il
+            | ConvertTo::Ladder
+            | ConvertTo::Plcopen
+            | ConvertTo::Autoshop
+            | ConvertTo::St
+            | ConvertTo::Labels => true,
+            ConvertTo::Csv | ConvertTo::Comments | ConvertTo::Image | ConvertTo::LabelsCsv => false,
         }
     }
 
@@ -174,19 +185,28 @@ impl ConvertTo {
         match self {
             ConvertTo::Il => "il",
             ConvertTo::Ladder | ConvertTo::Autoshop => "txt",
-            ConvertTo::Csv | ConvertTo::Comments => "csv",
+            ConvertTo::St | ConvertTo::Labels => "st",
+            ConvertTo::Csv | ConvertTo::Comments | ConvertTo::LabelsCsv => "csv",
             ConvertTo::Image => "bin",
             ConvertTo::Plcopen => "xml",
         }
     }
 
-    /// Name of this form of a program; `None` for one that holds comments alone.
+    /// Returns true for a form of a project's sources, not of its compiled program.
+    pub const fn is_of_sources(self) -> bool {
+        matches!(
+            self,
+            ConvertTo::St | ConvertTo::Labels | ConvertTo::LabelsCsv
+        )
+    }
+
+    /// Name of this form of a program; `None` for one that holds comments or sources alone.
     pub const fn form(self) -> Option<&'static str> {
         match self {
             ConvertTo::Il => Some("an instruction list"),
             ConvertTo::Ladder => Some("drawn ladder"),
             ConvertTo::Csv => Some("a list export"),
-            ConvertTo::Comments => None,
+            ConvertTo::Comments | ConvertTo::St | ConvertTo::Labels | ConvertTo::LabelsCsv => None,
             ConvertTo::Image => Some("an image"),
             ConvertTo::Plcopen => Some("PLCopen XML"),
             ConvertTo::Autoshop => Some("a list of AutoShop"),

@@ -2,6 +2,7 @@
 
 mod ladder;
 mod omitted;
+mod sources;
 
 use super::subject::{self, OutputPaths, Subject};
 use super::{
@@ -19,6 +20,7 @@ use rungc_models::{Fit, Plc};
 use rungc_syntax::{Diagnostics, Program, codes};
 use std::borrow::Cow;
 use std::io::{self, IsTerminal};
+use std::path::Path;
 
 /// Rewrites programs. Nothing is written of one that could not be read whole.
 pub fn run(args: &ConvertArgs, cx: Context) -> Result {
@@ -28,6 +30,9 @@ pub fn run(args: &ConvertArgs, cx: Context) -> Result {
     }
     let mut outputs = OutputPaths::default();
     subject::each(&args.inputs, cx, |subject, reporter| {
+        if args.to.is_of_sources() {
+            return sources::convert(args, subject, reporter, &mut outputs, cx);
+        }
         convert(args, subject, reporter, &mut outputs, cx)
     })
 }
@@ -61,12 +66,18 @@ fn convert(
         eprint_line(&format!("rungc: {sentence}"));
     }
     let name = || format!("{}.{}", stem(subject, &read), args.to.ending());
-    match outputs.place(file(&args.output), reporter.many(), name, subject)? {
-        Some(path) => write_file(&path, &bytes, args.force)?,
+    let path = outputs.place(file(&args.output), reporter.many(), name, subject)?;
+    deliver(args, path.as_deref(), &bytes)
+}
+
+/// Writes an output to its file, or to standard output.
+fn deliver(args: &ConvertArgs, path: Option<&Path>, bytes: &[u8]) -> Result {
+    match path {
+        Some(path) => write_file(path, bytes, args.force)?,
         None if args.to.is_text() && io::stdout().is_terminal() => {
-            print_text(&String::from_utf8_lossy(&bytes))?;
+            print_text(&String::from_utf8_lossy(bytes))?;
         }
-        None => print_bytes(&bytes)?,
+        None => print_bytes(bytes)?,
     }
     Ok(Outcome::Success)
 }
@@ -116,7 +127,7 @@ pub fn written(
     let program = &read.program;
     let text = match to {
         ConvertTo::Il | ConvertTo::Ladder | ConvertTo::Autoshop => print::broken_text(program),
-        ConvertTo::Csv | ConvertTo::Comments | ConvertTo::Image | ConvertTo::Plcopen => None,
+        _ => None,
     };
     if let Some(text) = text {
         let diagnostic = codes::TEXT_BREAK
@@ -149,5 +160,7 @@ pub fn written(
         }
         // Unreadable parts have been reported.
         ConvertTo::Image | ConvertTo::Plcopen | ConvertTo::Autoshop => Vec::new(),
+        // These are made of sources, not of a program.
+        ConvertTo::St | ConvertTo::Labels | ConvertTo::LabelsCsv => Vec::new(),
     }
 }

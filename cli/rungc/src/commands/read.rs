@@ -23,6 +23,10 @@ const CHUNK: usize = 0x40;
 const WORD: usize = 2;
 /// Reads a PLC. Nothing is written before all of the program has been read.
 pub fn run(args: &ReadArgs, cx: Context) -> Result {
+    if args.to.is_of_sources() {
+        let why = "`--to`: a PLC holds a compiled program alone, without labels and sources";
+        return Err(Failure::Because(why.to_owned()));
+    }
     if let Some(path) = file(&args.output) {
         spare(path, args.force)?;
     }

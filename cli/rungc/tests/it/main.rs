@@ -62,6 +62,7 @@ mod serve;
 mod servers;
 mod sessions;
 mod several;
+mod sources;
 mod threads;
 mod together;
 mod tools;

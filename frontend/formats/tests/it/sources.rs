@@ -109,7 +109,7 @@ fn sources_become_text() {
     let sources = sources(&labelled());
     insta::assert_snapshot!("sources_as_text", shown(&sources.to_st()));
     insta::assert_snapshot!("labels_as_text", sources.to_labels());
-    insta::assert_snapshot!("labels_as_tables", shown(&sources.to_label_tables()));
+    insta::assert_snapshot!("labels_as_tables", shown(&sources.to_label_tables("press")));
 }
 
 #[test]
@@ -176,7 +176,7 @@ fn damaged_sources_are_reported_and_leave_the_program_alone() {
                 let _ = (
                     sources.to_st(),
                     sources.to_labels(),
-                    sources.to_label_tables(),
+                    sources.to_label_tables("press"),
                 );
             }
         }

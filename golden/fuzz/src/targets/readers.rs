@@ -70,7 +70,7 @@ fn sources(input: &[u8]) {
     for unread in &sources.unread {
         assert!(!unread.what.is_empty(), "{unread:?}");
     }
-    let files = [sources.to_st(), sources.to_label_tables()].concat();
+    let files = [sources.to_st(), sources.to_label_tables("press")].concat();
     assert!(files.iter().all(|file| !file.path.contains("..")));
     let _ = (sources.to_labels(), sources.devices());
 }

@@ -38,7 +38,6 @@ impl Works<'_> {
         gathering.all();
         let mut sources = gathering.sources;
         if let Some(project) = &self.project {
-            sources.title.clone_from(&project.title);
             sources.reserved.clone_from(&project.reserved);
         }
         let by_name = |library: &Option<String>, name: &str| (library.clone(), name.to_lowercase());

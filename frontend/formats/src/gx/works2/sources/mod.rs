@@ -34,8 +34,6 @@ use rungc_syntax::DeviceRun;
 /// Sources of a project, as far as they can be read.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub struct Sources {
-    /// Name of the project.
-    pub title: String,
     /// Tables of global labels.
     pub globals: Vec<Globals>,
     /// Structures.

@@ -1,7 +1,7 @@
 //! Label tables as GX Works2 imports them from CSV: UTF-16 with tabs, the project's name first, then a heading.
 
 use super::text::{Files, SourceFile};
-use super::{Label, Pou, PouKind, Sources};
+use super::{Class, Label, Pou, PouKind, Sources};
 
 /// The columns of all tables but those of structures: class first.
 const GLOBAL: &[&str] = &[
@@ -33,45 +33,44 @@ const BLOCK: &[&str] = &["Class", "Label Name", "Data Type", "Constant", "Commen
 const STRUCTURE: &[&str] = &["Label Name", "Data Type", "Constant", "Comment"];
 
 impl Sources {
-    /// Label tables and structures, a file each.
-    pub fn to_label_tables(&self) -> Vec<SourceFile> {
+    /// Label tables and structures, a file each, of a project of this name.
+    pub fn to_label_tables(&self, project: &str) -> Vec<SourceFile> {
         let mut files = Files::default();
         for table in self.globals.iter().filter(|table| !table.labels.is_empty()) {
             let rows = table.labels.iter().map(|label| row(label, GLOBAL));
             let place = (&table.library, "labels/", table.name.as_str());
-            files.add(place, "csv", self.table(GLOBAL, rows));
+            files.add(place, "csv", tabulated(project, GLOBAL, rows));
         }
         for pou in self.pous.iter().filter(|pou| !pou.labels.is_empty()) {
             let columns = columns(pou);
             let rows = pou.labels.iter().map(|label| row(label, columns));
             let place = (&pou.library, "", pou.name.as_str());
-            files.add(place, "csv", self.table(columns, rows));
+            files.add(place, "csv", tabulated(project, columns, rows));
         }
         for structure in &self.structures {
-            let rows = structure.members.iter().map(|member| {
-                let fields = [
-                    &member.name,
-                    &member.data_type,
-                    &member.initial,
-                    &member.comment,
-                ];
-                fields.map(|field| field.as_str()).to_vec()
-            });
+            let rows = structure
+                .members
+                .iter()
+                .map(|member| vec![member.name.as_str(), &member.data_type, "", &member.comment]);
             let place = (&structure.library, "structures/", structure.name.as_str());
-            files.add(place, "csv", self.table(STRUCTURE, rows));
+            files.add(place, "csv", tabulated(project, STRUCTURE, rows));
         }
         files.sorted()
     }
+}
 
-    fn table<'l>(&self, columns: &[&'l str], rows: impl Iterator<Item = Vec<&'l str>>) -> Vec<u8> {
-        let mut text = format!("\u{FEFF}{}\n", quoted(&self.title));
-        for row in std::iter::once(columns.to_vec()).chain(rows) {
-            let fields: Vec<_> = row.iter().map(|field| quoted(field)).collect();
-            text.push_str(&fields.join("\t"));
-            text.push('\n');
-        }
-        text.encode_utf16().flat_map(u16::to_le_bytes).collect()
+fn tabulated<'l>(
+    project: &str,
+    columns: &[&'l str],
+    rows: impl Iterator<Item = Vec<&'l str>>,
+) -> Vec<u8> {
+    let mut text = format!("\u{FEFF}{}\n", quoted(project));
+    for row in std::iter::once(columns.to_vec()).chain(rows) {
+        let fields: Vec<_> = row.iter().map(|field| quoted(field)).collect();
+        text.push_str(&fields.join("\t"));
+        text.push('\n');
     }
+    text.encode_utf16().flat_map(u16::to_le_bytes).collect()
 }
 
 fn columns(pou: &Pou) -> &'static [&'static str] {
@@ -87,7 +86,10 @@ fn row<'l>(label: &'l Label, columns: &[&str]) -> Vec<&'l str> {
         "Class" => label.class.name(),
         "Label Name" => &label.name,
         "Data Type" => &label.data_type,
-        "Constant" => &label.initial,
+        // The column is that of constants; others have no value there.
+        "Constant" if matches!(label.class, Class::Constant | Class::GlobalConstant) => {
+            &label.initial
+        }
         "Device" => &label.device,
         "Address" => &label.address,
         "Comment" => &label.comment,
