@@ -100,8 +100,16 @@ impl Tools {
         self
     }
 
-    /// Looks whether C can be built.
-    pub(crate) fn check_c(&self) -> Result<(), BuildError> {
+    /// The C compiler, as a command.
+    pub fn c_compiler(&self) -> &OsStr {
+        &self.cc
+    }
+
+    /// Checks that C can be built.
+    ///
+    /// # Errors
+    /// The compiler or its C library is missing.
+    pub fn check_c(&self) -> Result<(), BuildError> {
         let Target {
             triple, packages, ..
         } = self.target;
@@ -128,7 +136,10 @@ impl Tools {
     }
 
     /// Checks that Rust can be built. A cargo that builds the standard library itself needs no library for the target.
-    pub(crate) fn check_rust(&self) -> Result<(), BuildError> {
+    ///
+    /// # Errors
+    /// The compiler or its library for the target is missing.
+    pub fn check_rust(&self) -> Result<(), BuildError> {
         if library::builds_std(&self.cargo_args) {
             return Ok(());
         }

@@ -14,6 +14,7 @@ mod lsp;
 mod properties;
 mod repeated;
 mod serve;
+mod start;
 mod test;
 mod values;
 mod verify;
@@ -35,6 +36,7 @@ pub use listings::{StatsArgs, StatsTo, ViewArgs, XrefArgs, XrefTo};
 pub use lsp::LspArgs;
 pub use properties::Properties;
 pub use serve::{PageArgs, ServeArgs, ServeSettings};
+pub use start::{DemoArgs, DoctorArgs, DoctorFormat, InitArgs};
 pub use test::{CoverageFormat, TestArgs, TestFormat};
 pub use verify::VerifyArgs;
 pub use watch::{WatchArgs, WatchTo};
@@ -76,6 +78,7 @@ Examples:
   rungc view machine.gxw --device Y000         networks, as ladder
   rungc xref machine.gxw --device M100..M199   who reads and writes each device
   rungc diff old.gxw new.gxw --semantic        what changed, and which outputs can differ
+  rungc demo                                   an example project, and what to try with it
   rungc init machine.gxw                       settings of a project: rungc.toml
   rungc explain E0106                          also: rungc explain ADD, rungc explain M8013
   rungc book test-files                        a page of the book; `rungc book` lists them
@@ -172,6 +175,13 @@ pub enum Command {
     Lsp(LspArgs),
     /// Write rungc.toml, the commented settings of a project.
     Init(InitArgs),
+    /// Write an example project into a new folder, and print a tour of its commands.
+    Demo(DemoArgs),
+    /// List the tools that rungc calls, the serial ports and settings of this machine, and what each missing one
+    /// prevents.
+    ///
+    /// Exit code 0, whatever is missing.
+    Doctor(DoctorArgs),
     /// Learn unknown instruction codes of a vendor project from the editor's list export.
     Learn(LearnArgs),
     /// Explain a diagnostic code, an instruction, a special device, an error code or a safety function, or print a page
@@ -486,14 +496,6 @@ pub struct FmtArgs {
     /// Change nothing: list the lines that are not formatted, and fail (exit code 1) if there are any.
     #[arg(long)]
     pub check: bool,
-}
-
-/// Arguments of `init`.
-#[derive(Args, Debug)]
-pub struct InitArgs {
-    /// The program of the project; rungc.toml is written to its folder. Default: the only program in this folder.
-    #[arg(value_name = "FILE")]
-    pub file: Option<PathBuf>,
 }
 
 /// Arguments of `learn`.

@@ -51,6 +51,8 @@ pub fn main() -> ExitCode {
         Command::Flash(args) => commands::flash::run(args, cx),
         Command::Lsp(_) => commands::lsp::run(),
         Command::Init(args) => commands::init::run(args, cx),
+        Command::Demo(args) => commands::demo::run(args, cx),
+        Command::Doctor(args) => commands::doctor::run(args, cx),
         Command::Learn(args) => commands::learn::run(args, cx),
         Command::Verify(args) => commands::verify::run(args, cx),
         Command::Explore(args) => commands::explore::run(args, cx),
@@ -130,7 +132,7 @@ fn broken_argument() -> Option<String> {
 }
 
 /// Words of other tools, and the commands that do what they mean.
-const OTHER_WORDS: [(&str, &str); 8] = [
+const OTHER_WORDS: [(&str, &str); 10] = [
     ("compile emit generate make", "build"),
     ("lint validate analyse analyze", "check"),
     ("ladder draw show print svg", "view"),
@@ -139,6 +141,8 @@ const OTHER_WORDS: [(&str, &str); 8] = [
     ("export import decompile translate", "convert"),
     ("upload download backup", "read"),
     ("format", "fmt"),
+    ("tour example tutorial", "demo"),
+    ("tools environment env diagnose", "doctor"),
 ];
 
 /// An error with better advice: for an unknown command, the one that does what the word means elsewhere; for an option

@@ -288,6 +288,23 @@ pub fn write_executable(path: &Path, contents: &[u8], force: bool) -> Result<(),
     write_whole(path, contents, force, 0o777)
 }
 
+/// Writes the files of a project, none of which may exist: all of them, or none.
+pub fn write_new(files: &[(PathBuf, &[u8])]) -> Result<(), Failure> {
+    let is_there = |(path, _): &&(PathBuf, &[u8])| fs::symlink_metadata(path).is_ok();
+    if let Some((path, _)) = files.iter().find(is_there) {
+        let why = format!("{} already exists: edit or remove it", path.display());
+        return Err(Failure::Because(why));
+    }
+    let mut written = Vec::new();
+    for (path, contents) in files {
+        let mut file = AtomicFile::create(path, Kind::Own, false)?;
+        let done = file.file.write_all(contents);
+        done.map_err(|error| file.failed(error))?;
+        written.push(file);
+    }
+    written.into_iter().try_for_each(AtomicFile::persist)
+}
+
 /// Of `mode`, the permissions where the system has them, the user's mask takes its part away.
 fn write_whole(path: &Path, contents: &[u8], force: bool, mode: u32) -> Result<(), Failure> {
     let mut file = AtomicFile::with_mode(path, (Kind::of(contents), force), mode)?;

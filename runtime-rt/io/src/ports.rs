@@ -1,4 +1,4 @@
-//! Serial ports that cannot be opened: what to do.
+//! The serial ports of this machine, and advice about those that cannot be opened.
 
 use serial2::SerialPort;
 use std::io::{self, ErrorKind};
@@ -11,13 +11,27 @@ const LISTED: usize = 8;
 const NOT_A_TERMINAL: i32 = 25;
 
 /// Advice for users of Linux who may not open a port.
-const GROUPS: &str = "serial ports belong to a group, `dialout` on Debian, Ubuntu and Fedora, `uucp` on Arch: \
+pub const GROUPS: &str = "serial ports belong to a group, `dialout` on Debian, Ubuntu and Fedora, `uucp` on Arch: \
                       `sudo usermod -aG dialout $USER`, then log in again";
 
 /// Message for a serial port that cannot be opened: the reason and the next step.
 pub fn cannot_open(error: &io::Error) -> String {
     let ports = SerialPort::available_ports().unwrap_or_default();
     format!("{error}; {}", advice(error, &ports))
+}
+
+/// The serial ports of this machine, adapters first: what people connect is rarely built in.
+pub fn available() -> Vec<PathBuf> {
+    adapters_first(&SerialPort::available_ports().unwrap_or_default())
+}
+
+fn adapters_first(ports: &[PathBuf]) -> Vec<PathBuf> {
+    let mut ports = ports.to_vec();
+    ports.sort_by_key(|port| {
+        let name = port.display().to_string();
+        (name.contains("ttyS"), name.len(), name)
+    });
+    ports
 }
 
 fn advice(error: &io::Error, ports: &[PathBuf]) -> String {
@@ -35,12 +49,9 @@ fn advice(error: &io::Error, ports: &[PathBuf]) -> String {
 
 /// The serial ports of this machine.
 fn list(ports: &[PathBuf]) -> String {
-    // Adapters come first: what people connect is rarely built in.
-    let mut names: Vec<_> = ports
-        .iter()
-        .map(|port| port.display().to_string())
-        .collect();
-    names.sort_by_key(|name| (name.contains("ttyS"), name.len(), name.clone()));
+    let ports = adapters_first(ports);
+    let names = ports.iter().map(|port| port.display().to_string());
+    let mut names: Vec<_> = names.collect();
     let more = match names.len() > LISTED {
         true => ", …",
         false => "",

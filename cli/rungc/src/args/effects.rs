@@ -124,15 +124,19 @@ pub fn idle(command: &str, matches: &ArgMatches) -> Option<String> {
     Some(format!("{option}: {}", idle.otherwise))
 }
 
-/// An option as its user writes it: `--write-test`.
+/// An option as its user writes it, `--write-test`, or the name of an argument without one, `DIR`.
 pub fn long_option(command: &str, id: &str) -> String {
     let cli = Cli::command();
     let mut all = cli
         .find_subcommand(command)
         .into_iter()
         .flat_map(Command::get_arguments);
-    let long = all.find(|arg| arg.get_id() == id).and_then(Arg::get_long);
-    format!("--{}", long.unwrap_or(id))
+    let arg = all.find(|arg| arg.get_id() == id);
+    let names = arg.and_then(Arg::get_value_names).unwrap_or_default();
+    match (arg.and_then(Arg::get_long), names) {
+        (None, [name]) => name.to_string(),
+        (long, _) => format!("--{}", long.unwrap_or(id)),
+    }
 }
 
 /// Returns true if one of these options is on the command line.

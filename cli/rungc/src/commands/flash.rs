@@ -1,7 +1,7 @@
 //! `rungc flash`: an image into a microcontroller.
 
 mod port;
-mod probe;
+pub mod probe;
 mod volume;
 
 use super::{Context, Failure, Outcome, Result, eprint_line, interruption};

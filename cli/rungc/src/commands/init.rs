@@ -2,7 +2,7 @@
 
 use super::{Context, Failure, Outcome, Result, check_name, parent_dir};
 use crate::args::InitArgs;
-use crate::output::write_file;
+use crate::output::write_new;
 use rungc_models::ModelId;
 use rungc_project::{FILE, template};
 use std::path::{Path, PathBuf};
@@ -35,11 +35,7 @@ pub fn run(args: &InitArgs, cx: Context) -> Result {
         true => PathBuf::from(FILE),
         false => folder.join(FILE),
     };
-    if path.exists() {
-        let why = format!("{} already exists: edit or remove it", path.display());
-        return Err(Failure::Because(why));
-    }
-    write_file(&path, template(name, model).as_bytes(), false)?;
+    write_new(&[(path.clone(), template(name, model).as_bytes())])?;
     cx.note(&format!("       Wrote {}", path.display()));
     Ok(Outcome::Success)
 }

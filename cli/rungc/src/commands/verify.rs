@@ -18,6 +18,7 @@ use crate::output::{file, spare, write_file};
 use crate::report::Reporter;
 use crate::report::junit::{Case, properties};
 use evidence::{Basis, Grounds};
+pub use export::SOLVER;
 use rungc::location::named;
 use rungc_evidence::Evidence;
 use rungc_frontend::Read;

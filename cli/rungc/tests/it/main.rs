@@ -14,7 +14,10 @@ mod connected;
 mod conversions;
 mod coverage;
 mod deep;
+mod demo;
 mod diff;
+#[cfg(unix)]
+mod doctor;
 mod documents;
 #[cfg(unix)]
 mod editors;

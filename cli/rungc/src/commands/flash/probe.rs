@@ -9,7 +9,7 @@ use std::io::ErrorKind;
 use std::process::Command;
 
 /// Name of the program.
-const PROGRAM: &str = "probe-rs";
+pub const PROGRAM: &str = "probe-rs";
 
 /// Calls probe-rs to write and verify an image, and to reset the part if it shall start.
 pub fn flash(args: &FlashArgs, chip: &str, payload: &Payload, cx: Context) -> Result {

@@ -145,7 +145,7 @@ pub fn slashed(path: &Path) -> String {
 }
 
 /// The solver that writes proofs.
-const SOLVER: &str = "cadical";
+pub const SOLVER: &str = "cadical";
 
 /// Failure to start the solver.
 fn unstarted(error: &std::io::Error) -> Failure {
