@@ -1,12 +1,12 @@
 //! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file, `cargo xtask
-//! package` the packages that are published, `cargo xtask platforms` checks other systems, `cargo xtask campaign`
-//! compares engines for hours, `cargo xtask pairs` measures the prover. No crate may depend on this one. Start
-//! reading at `generate.rs`, the table of generated
-//! files.
+//! package` the crates that are published, `cargo xtask dist` the packages that users install, `cargo xtask platforms`
+//! checks other systems, `cargo xtask campaign` compares engines for hours, `cargo xtask pairs` measures the prover. No
+//! crate may depend on this one. Start reading at `generate.rs`, the table of generated files.
 
 mod book;
 mod campaign;
 mod crates;
+mod dist;
 mod generate;
 mod header;
 mod package;
@@ -33,6 +33,8 @@ enum Chore {
     Generate(generate::Args),
     /// Check that every published crate builds from its package alone, or publish them.
     Package(package::Args),
+    /// Make the packages that users install.
+    Dist(dist::Args),
     /// Check that the crates compile for Windows, macOS and WebAssembly.
     Platforms(platforms::Args),
     /// Compare random programs on every way to run them, for hours.
@@ -53,6 +55,7 @@ fn main() -> ExitCode {
     let done = match Args::parse().chore {
         Chore::Generate(args) => generate::run(&args),
         Chore::Package(args) => package::run(&args),
+        Chore::Dist(args) => dist::run(&args),
         Chore::Platforms(args) => platforms::run(&args),
         Chore::Campaign(args) => campaign::run(&args),
         Chore::Pairs(args) => pairs::run(&args),

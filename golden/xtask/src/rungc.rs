@@ -37,20 +37,30 @@ pub fn commands() -> Result<Made, Problem> {
         Ok(lines.join("\n").trim_end().to_owned())
     };
     let all = help(&["--help"])?;
-    let listed = all.lines().skip_while(|line| *line != "Commands:").skip(1);
-    let names = listed
-        .take_while(|line| !line.is_empty())
-        .filter(|line| line.starts_with("  ") && !line.starts_with("   "))
-        .filter_map(|line| line.split_whitespace().next())
-        .filter(|name| *name != "help");
     let mut page = format!(
         "# Commands\n\nWhat `rungc help` and `rungc help COMMAND` print.\n\n```text\n{all}\n```\n"
     );
-    for name in names {
+    for name in names(&all) {
         let text = help(&[name, "--help"])?;
         page += &format!("\n## {name}\n\n```text\n{text}\n```\n");
     }
     Ok(Made::file("docs/src/commands.md", page))
+}
+
+/// Names of the commands, in the output of `rungc --help`.
+fn names(help: &str) -> impl Iterator<Item = &str> {
+    let listed = help.lines().skip_while(|line| *line != "Commands:").skip(1);
+    listed
+        .take_while(|line| !line.is_empty())
+        .filter(|line| line.starts_with("  ") && !line.starts_with("   "))
+        .filter_map(|line| line.split_whitespace().next())
+        .filter(|name| *name != "help")
+}
+
+/// Names of the commands of an executable.
+pub fn command_names(rungc: &Path) -> Result<Vec<String>, Problem> {
+    let help = tools::output(Command::new(rungc).arg("--help"))?;
+    Ok(names(&help).map(str::to_owned).collect())
 }
 
 /// The diagrams of these pages: what their commands draw.
@@ -124,11 +134,20 @@ fn shown(page: &str) -> Vec<(&str, &str)> {
 const EXECUTABLE: &str = "RUNGC_EXECUTABLE";
 
 /// Path of the command, which is built unless [`EXECUTABLE`] is set.
-fn build() -> Result<PathBuf, Problem> {
+pub fn build() -> Result<PathBuf, Problem> {
     if let Some(built) = env::var_os(EXECUTABLE) {
         return Ok(std::path::absolute(built)?);
     }
-    let mut cargo = tools::cargo(&["build", "--quiet", "--package", "rungc"]);
+    built(&mut tools::cargo(&[
+        "build",
+        "--quiet",
+        "--package",
+        "rungc",
+    ]))
+}
+
+/// Path of the executable that a cargo command builds.
+pub fn built(cargo: &mut Command) -> Result<PathBuf, Problem> {
     let printed = tools::output(cargo.arg("--message-format=json-render-diagnostics"))?;
     let mut messages = printed.lines().filter_map(|line| {
         let message: serde_json::Value = serde_json::from_str(line).ok()?;
