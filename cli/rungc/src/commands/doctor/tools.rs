@@ -61,7 +61,7 @@ pub const ALL: [Tool; 8] = [
     },
     Tool {
         name: "make",
-        needed_for: "the same, and `build --emit elf`, `build --emit uf2`, `build --report`",
+        needed_for: "`build --emit bin`, `lib`, `elf` and `uf2`, `build --report`, `test --engine c`",
         install: Install {
             debian: "sudo apt install make",
             macos: "xcode-select --install",
@@ -71,7 +71,7 @@ pub const ALL: [Tool; 8] = [
     },
     Tool {
         name: "clang",
-        needed_for: "nothing; another C compiler for emitted code: `CC=clang`",
+        needed_for: "emitted code by another C compiler: `CC=clang`",
         install: Install {
             debian: "sudo apt install clang",
             macos: "xcode-select --install",
