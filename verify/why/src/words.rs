@@ -213,13 +213,21 @@ impl Words<'_> {
                 let needed = if on { no } else { yes.clone() };
                 (format!("{yes} {holds} ({})", values(instr)), needed)
             }
-            (FactKind::Elapsed, Some(instr)) => (
-                format!("{} ({})", if on { &yes } else { &no }, values(instr)),
-                yes,
-            ),
-            (FactKind::Counted, Some(instr)) => {
-                let (now, needed) = if on { (yes, no) } else { (no, yes) };
-                (format!("{now} ({})", values(instr)), needed)
+            (FactKind::Elapsed | FactKind::Counted, Some(instr)) => {
+                let has = if on { "has" } else { "has not" };
+                let done = match fact.kind {
+                    FactKind::Elapsed => "run its time",
+                    _ => "counted to its preset",
+                };
+                let name = fact
+                    .device
+                    .map_or_else(|| self.at(instr), |device| self.named(device));
+                let needed = if on && fact.kind == FactKind::Counted {
+                    no
+                } else {
+                    yes
+                };
+                (format!("{name} {has} {done} ({})", values(instr)), needed)
             }
             (FactKind::Written, Some(instr)) => {
                 let through = self
