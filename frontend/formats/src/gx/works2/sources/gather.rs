@@ -12,6 +12,8 @@ use encoding_rs::Encoding;
 
 /// Bytes of an unreadable place that a message shows.
 const SHOWN: usize = 16;
+/// Description of a POU's source, before its name.
+const SOURCE: &str = "the source of";
 
 /// Reads sources from parts of a project: their names in the project (`MAIN.Program.pou`), and their contents.
 pub fn read_parts(parts: &[(&str, &[u8])], options: &ReadOptions) -> Sources {
@@ -99,7 +101,12 @@ impl Gathering<'_> {
     fn unread(&mut self, what: String, bytes: &[u8], at: usize) {
         let rest = bytes.get(at..).unwrap_or_default();
         let bytes = rest.iter().take(SHOWN).copied().collect();
-        self.sources.unread.push(Unread { what, at, bytes });
+        self.sources.unread.push(Unread {
+            is_source: what.starts_with(SOURCE),
+            what,
+            at,
+            bytes,
+        });
     }
 
     /// The rows of a table, whose damage is noted.
@@ -171,7 +178,7 @@ impl Gathering<'_> {
     fn body(&mut self, part: &Part) -> Body {
         let name = part.stem();
         let Some(pou) = objects::Pou::read(&part.bytes) else {
-            self.unread(format!("the source of `{name}`"), &part.bytes, 0);
+            self.unread(format!("{SOURCE} `{name}`"), &part.bytes, 0);
             return Body::Unread;
         };
         let content = &part.bytes[pou.start..pou.end];
@@ -191,7 +198,7 @@ impl Gathering<'_> {
             Language::Other(code) => (Body::Other(code), None),
         };
         if let Some(at) = damaged {
-            self.unread(format!("the source of `{name}`"), &part.bytes, at);
+            self.unread(format!("{SOURCE} `{name}`"), &part.bytes, at);
         }
         body
     }

@@ -86,6 +86,8 @@ pub struct Unread {
     pub at: usize,
     /// Bytes from there on, a few.
     pub bytes: Vec<u8>,
+    /// True for the source of a POU. Of a plain ladder, the reader of the program reports the damage.
+    pub is_source: bool,
 }
 
 impl Sources {

@@ -21,9 +21,12 @@ impl Sources {
 
     /// A note of what the project holds, and a warning for each part that cannot be read.
     pub(in crate::gx::works2) fn notes(&self) -> Vec<Diagnostic> {
-        let unread = self.unread.iter().take(SHOWN);
+        let is_structured = self.is_structured();
+        let unread = self.unread.iter();
+        let unread = unread.filter(|unread| is_structured || !unread.is_source);
+        let unread = unread.take(SHOWN);
         let unread = unread.map(|unread| damaged_rest(&unread.what, &unread.bytes, unread.at));
-        let summary = self.is_structured().then(|| {
+        let summary = is_structured.then(|| {
             codes::SOURCES
                 .at(Span::default(), format!("the project holds {}", self.held()))
                 .label("the compiled program starts here")
