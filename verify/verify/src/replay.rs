@@ -303,6 +303,9 @@ pub(crate) fn stretched(trace: &Trace, most_ms: u32) -> Option<Trace> {
     })
 }
 
+/// Values of a run that are copied in a step of effort.
+const COPIED: usize = 4;
+
 /// Runs of more scans than this are not simplified scan by scan.
 const SIMPLIFIED: usize = 150;
 
@@ -350,24 +353,30 @@ pub fn plain(
     if let Some(scans) = happens(&trace) {
         trace.scans.truncate(scans);
     }
+    // A copy costs as much as it has values, which is much where a panel writes thousands of registers: no change is
+    // tried that changes nothing, and the limit counts the others.
     let attempt = |trace: &mut Trace, change: &dyn Fn(&mut Trace)| {
+        limit.charge(trace.scans.iter().map(|scan| scan.set.len()).sum::<usize>() / COPIED);
+        if limit.is_over() {
+            return;
+        }
         let mut other = trace.clone();
         change(&mut other);
-        if other != *trace && !limit.is_over() && happens(&other) == Some(other.scans.len()) {
+        if happens(&other) == Some(other.scans.len()) {
             *trace = other;
         }
     };
     /// A scan time that people expect.
     const USUAL_MS: u32 = 10;
     let usual_ms = USUAL_MS.min(most_ms);
-    attempt(&mut trace, &|trace| {
-        trace
-            .scans
-            .iter_mut()
-            .skip(1)
-            .for_each(|scan| scan.ms = usual_ms);
-    });
-    for key in trace.start.keys().copied().collect::<Vec<_>>() {
+    if trace.scans.iter().skip(1).any(|scan| scan.ms != usual_ms) {
+        attempt(&mut trace, &|trace| {
+            let later = trace.scans.iter_mut().skip(1);
+            later.for_each(|scan| scan.ms = usual_ms);
+        });
+    }
+    let on = trace.start.iter().filter(|(_, value)| **value != 0);
+    for key in on.map(|(key, _)| *key).collect::<Vec<_>>() {
         attempt(&mut trace, &|trace| {
             trace.start.insert(key, 0);
         });
@@ -377,30 +386,43 @@ pub fn plain(
         more if more > SIMPLIFIED => 1,
         all => all,
     };
-    for scan in 0..steps {
-        attempt(&mut trace, &|trace| trace.scans[scan].scan_time = 0);
-        attempt(&mut trace, &|trace| trace.scans[scan].restart = false);
-        attempt(&mut trace, &|trace| {
-            if scan > 0 {
-                trace.scans[scan].ms = usual_ms;
+    for at in 0..steps {
+        if trace.scans[at].scan_time != 0 {
+            attempt(&mut trace, &|trace| trace.scans[at].scan_time = 0);
+        }
+        if trace.scans[at].restart {
+            attempt(&mut trace, &|trace| trace.scans[at].restart = false);
+        }
+        if at > 0 && trace.scans[at].ms != usual_ms {
+            attempt(&mut trace, &|trace| trace.scans[at].ms = usual_ms);
+        }
+        for key in trace.scans[at].set.keys().copied().collect::<Vec<_>>() {
+            if limit.is_over() {
+                return trace;
             }
-        });
-        for key in trace.scans[scan].set.keys().copied().collect::<Vec<_>>() {
             // Off from here on, or as in the scan before.
-            attempt(&mut trace, &|trace| {
-                trace.scans[scan..].iter_mut().for_each(|scan| {
-                    scan.set.insert(key, 0);
+            let is_off = |scan: &Scan| scan.set.get(&key) == Some(&0);
+            if !trace.scans[at..].iter().all(is_off) {
+                attempt(&mut trace, &|trace| {
+                    trace.scans[at..].iter_mut().for_each(|scan| {
+                        scan.set.insert(key, 0);
+                    });
                 });
-            });
-            attempt(&mut trace, &|trace| {
-                trace.scans[scan].set.insert(key, 0);
-            });
-            attempt(&mut trace, &|trace| {
-                let before = scan
-                    .checked_sub(1)
-                    .and_then(|s| trace.scans[s].set.get(&key).copied());
-                trace.scans[scan].set.insert(key, before.unwrap_or(0));
-            });
+            }
+            if !is_off(&trace.scans[at]) {
+                attempt(&mut trace, &|trace| {
+                    trace.scans[at].set.insert(key, 0);
+                });
+            }
+            let before = at
+                .checked_sub(1)
+                .and_then(|before| trace.scans[before].set.get(&key));
+            let before = before.copied().unwrap_or(0);
+            if trace.scans[at].set.get(&key) != Some(&before) {
+                attempt(&mut trace, &|trace| {
+                    trace.scans[at].set.insert(key, before);
+                });
+            }
         }
     }
     trace
@@ -505,4 +527,49 @@ fn name(key: Key) -> Option<String> {
         | Key::Counter(_, CounterPart::Done) => device.to_string(),
         _ => return None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+    use crate::effort::{Limit, STEPS};
+    use crate::model::Key;
+    use crate::search::{Scan, Trace};
+    use rungc_syntax::DeviceClass;
+    use std::cell::Cell;
+    use std::collections::BTreeMap;
+
+    /// A run of 100 scans in which a panel writes as many registers, each in each scan.
+    fn written(registers: u32) -> Trace {
+        let key = |n| Key::Word(DeviceClass::D, n);
+        let scan = |at: i64| Scan {
+            ms: 10,
+            set: (0..registers).map(|n| (key(n), at + 1)).collect(),
+            ..Scan::default()
+        };
+        Trace {
+            start: BTreeMap::new(),
+            scans: (0..100).map(scan).collect(),
+        }
+    }
+
+    #[test]
+    fn runs_become_plain_within_the_limit() {
+        let tried = Cell::new(0);
+        let happens = |trace: &Trace| {
+            tried.set(tried.get() + 1);
+            Some(trace.scans.len())
+        };
+        let plain_of = |registers, limit| plain(&happens, 200, written(registers), &limit);
+        let ms = |trace: &Trace| trace.scans.iter().all(|scan| scan.ms == 10);
+        let few = plain_of(2, Limit::none());
+        let values = few.scans.iter().flat_map(|scan| scan.set.values());
+        assert!(values.copied().all(|value| value == 0) && ms(&few));
+        // The first run, and a change of each register from the first scan on.
+        assert_eq!(tried.replace(0), 3);
+        // A copy of 500,000 values takes 125,000 steps.
+        assert!(STEPS < 125_000);
+        assert!(ms(&plain_of(5_000, Limit::new(50, None))));
+        assert!(tried.get() < 6, "{}", tried.get());
+    }
 }
