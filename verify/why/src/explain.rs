@@ -16,6 +16,7 @@ use rungc_ladder::build;
 use rungc_lower::marks::Marks;
 use rungc_models::runs::is_special;
 use rungc_rt::Plc as _;
+use rungc_rt::special::M_OUTPUTS_OFF;
 use rungc_sim::{Session, Target};
 use rungc_syntax::{Device, DeviceClass, Program};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -93,13 +94,17 @@ impl<'p> Explainer<'p> {
             trace,
             history,
         };
-        let writers = self.writers(device, &now.trace, true);
+        // In STOP no scan takes place: the program alone says what could switch it.
+        let writers = match now.session.machine().sys().running {
+            true => self.writers(device, &now.trace, true),
+            false => self.writers(device, &self.conditions(device), false),
+        };
         let (causes, because) = self.causes(device, &now, &writers);
         Why {
             device: device.to_string(),
             comment: self.words.comment(device),
             moment: Some(self.moment(device, &now)),
-            notes: self.notes(device, &writers),
+            notes: [self.terminals(device, &now), self.notes(device, &writers)].concat(),
             writers: writers.into_iter().map(|(_, writer)| writer).collect(),
             causes,
             because,
@@ -231,6 +236,17 @@ impl<'p> Explainer<'p> {
     }
 
     /// Sentences about a device and its writers.
+    /// What keeps the terminal of an output off though the output is on.
+    fn terminals(&self, device: Device, now: &Now) -> Vec<String> {
+        let relay = Device {
+            class: DeviceClass::M,
+            number: M_OUTPUTS_OFF.number(),
+        };
+        let is_disabled = device.class == DeviceClass::Y && state(now.session.machine(), relay);
+        let note = || format!("{relay} is on: the terminals of all outputs are off.");
+        is_disabled.then(note).into_iter().collect()
+    }
+
     fn notes(&self, device: Device, writers: &[(usize, Writer)]) -> Vec<String> {
         let mut notes = Vec::new();
         let name = self.words.named(device);
