@@ -12,9 +12,12 @@ use rungc_runtime_sources::cache;
 use serde::Serialize;
 use std::ffi::OsStr;
 use std::fmt::{self, Write};
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::sync::mpsc::{self, Receiver};
+use std::thread;
+use std::time::{Duration, Instant};
 use tools::Tool;
 
 /// The report.
@@ -141,25 +144,69 @@ fn reason(error: rungc_firmware::build::BuildError) -> String {
     error.to_string()
 }
 
+/// Time that a program has to say its version.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// More than a program says of its version.
+const LONGEST: u64 = 1 << 16;
+
 /// The first line that a program prints about its version.
 fn version(command: &OsStr) -> State {
-    let output = Command::new(command)
+    let child = Command::new(command)
         .arg("--version")
         .stdin(Stdio::null())
-        .output();
-    match output {
-        Err(error) if error.kind() == ErrorKind::NotFound => State::Missing,
-        Err(error) => State::Failed(error.to_string()),
-        Ok(output) if output.status.success() => {
-            let text = String::from_utf8_lossy(&output.stdout);
-            State::Ok(text.lines().next().unwrap_or_default().trim().to_owned())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn();
+    let mut child = match child {
+        Err(error) if error.kind() == ErrorKind::NotFound => return State::Missing,
+        Err(error) => return State::Failed(error.to_string()),
+        Ok(child) => child,
+    };
+    let (out, errors) = (text_of(child.stdout.take()), text_of(child.stderr.take()));
+    let deadline = Instant::now() + PATIENCE;
+    let status = loop {
+        match child.try_wait() {
+            Err(error) => return State::Failed(error.to_string()),
+            Ok(Some(status)) => break status,
+            Ok(None) if Instant::now() < deadline => thread::sleep(Duration::from_millis(5)),
+            Ok(None) => {
+                let _ = child.kill();
+                let _ = child.wait();
+                let seconds = PATIENCE.as_secs();
+                return State::Failed(format!("no answer to --version within {seconds} s"));
+            }
         }
-        Ok(output) => {
-            let text = String::from_utf8_lossy(&output.stderr);
+    };
+    // What a program has started may keep its output open.
+    let text = |of: &Receiver<String>| of.recv_timeout(PATIENCE).unwrap_or_default();
+    match status.success() {
+        true => State::Ok(
+            text(&out)
+                .lines()
+                .next()
+                .unwrap_or_default()
+                .trim()
+                .to_owned(),
+        ),
+        false => {
+            let text = text(&errors);
             let line = text.lines().find(|line| !line.trim().is_empty());
-            State::Failed(format!("{}: {}", output.status, line.unwrap_or_default()))
+            State::Failed(format!("{status}: {}", line.unwrap_or_default()))
         }
     }
+}
+
+/// The text that comes out of a pipe.
+fn text_of(pipe: Option<impl Read + Send + 'static>) -> Receiver<String> {
+    let (sender, receiver) = mpsc::channel();
+    thread::spawn(move || {
+        let mut bytes = Vec::new();
+        // What cannot be read any more is not there.
+        let _ = pipe.map(|pipe| pipe.take(LONGEST).read_to_end(&mut bytes));
+        let _ = sender.send(String::from_utf8_lossy(&bytes).into_owned());
+    });
+    receiver
 }
 
 /// Writes a file to the cache, and removes it.
