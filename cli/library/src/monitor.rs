@@ -9,7 +9,7 @@ use rungc_models::runs::{IndexAlias, name_class, rt_class};
 use rungc_monitor::{Item, Sample};
 use rungc_rt::{Class, Plc as _, special};
 use rungc_sim::Session;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Program};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Index, OperandKind, Program};
 use std::collections::BTreeSet;
 
 /// Shows that the PLC is in RUN.
@@ -24,8 +24,50 @@ pub fn items(program: &Program, model: &'static Model) -> BTreeSet<Item> {
         let class = row.first.class;
         (row.first.number..=row.last.number).map(move |number| Device { class, number })
     });
+    let registers = indexed(program).map(|(_, _, index)| register(&index));
+    let devices = devices.chain(registers);
     let items = devices.flat_map(|device| items_of(device, model));
     items.chain([RUNS]).collect()
+}
+
+/// The operands of a program that have an index: the device as written, how many devices there are from there on, and
+/// the index.
+fn indexed(program: &Program) -> impl Iterator<Item = (Device, u32, Index)> {
+    let operands = program.instrs.iter().flat_map(|instr| &instr.operands);
+    operands.filter_map(|operand| match operand.kind {
+        // Of words, the two of a 32-bit instruction.
+        OperandKind::Device(device, Some(index)) => Some((device, 2, index)),
+        OperandKind::WordBit(device, _, Some(index)) => Some((device, 1, index)),
+        OperandKind::Nibbles(digits, device, Some(index)) => {
+            Some((device, 4 * u32::from(digits), index))
+        }
+        _ => None,
+    })
+}
+
+fn register(index: &Index) -> Device {
+    Device {
+        class: index.class,
+        number: index.number,
+    }
+}
+
+/// The values that index registers lead to, as far as the registers are known: what each indexed operand names now. A
+/// second look reads them.
+pub fn indexed_items(program: &Program, model: &'static Model, sample: &Sample) -> BTreeSet<Item> {
+    let value = |index: &Index| -> i32 {
+        let items = items_of(register(index), model).into_iter();
+        let values = items.filter_map(|item| sample.values.get(&item));
+        values.copied().next().unwrap_or(0)
+    };
+    let named = indexed(program).filter_map(|(device, count, index)| {
+        let number = device.number.checked_add_signed(value(&index))?;
+        Some((number..number.saturating_add(count)).map(move |number| Device { number, ..device }))
+    });
+    let devices = named
+        .flatten()
+        .filter(|device| model.has(device.class, device.number));
+    devices.flat_map(|device| items_of(device, model)).collect()
 }
 
 /// The values of a device: of a timer or counter its contact and its current value, of an index register its special
@@ -58,7 +100,7 @@ pub fn device_of(item: Item) -> Device {
 }
 
 /// Brings a session that has not begun to where a PLC stands. Edges are over, as after scans in which nothing changes:
-/// what the program remembers of earlier scans to notice them, a PLC does not show.
+/// what the program remembers of earlier scans to notice them, a PLC does not show. What is hidden counts as off.
 pub fn take_over(session: &mut Session, sample: &Sample) {
     give(session.machine_mut(), sample);
     // The first scan initialises, the second one sees what the PLC has, and both write devices.
@@ -92,7 +134,8 @@ pub fn first_difference(program: &Program, memory: &[u8]) -> Result<Option<usize
 }
 
 fn give(machine: &mut Machine, sample: &Sample) {
-    for (&item, &value) in &sample.values {
+    let hidden = sample.hidden.iter().map(|item| (item, &0));
+    for (&item, &value) in sample.values.iter().chain(hidden) {
         // What the program does not store has no part in it.
         let _ = match item {
             Item::Bit(class, number) => machine.set_bit(class, number, value != 0),

@@ -61,6 +61,14 @@ pub struct Sample {
     pub hidden: Vec<Item>,
 }
 
+impl Sample {
+    /// Adds what a later look has shown.
+    pub fn extend(&mut self, later: Sample) {
+        self.values.extend(later.values);
+        self.hidden.extend(later.hidden);
+    }
+}
+
 /// A PLC that can be read.
 pub enum Plc<L> {
     /// At its programming port.

@@ -8,6 +8,9 @@ use std::time::Instant;
 /// Words that a request reads at most: what a PLC of the family sends of bit devices.
 const MOST: u32 = 32;
 
+/// Bits that a request reads at most, one by one.
+const MOST_BITS: u32 = 255;
+
 /// Words between two values that are read along, since another request takes as long.
 const GAP: u32 = 4;
 
@@ -34,6 +37,13 @@ pub struct Plc<L> {
     line: L,
     patience: Patience,
     frame: Frame,
+}
+
+/// Units of a batch read, by the commands of frame 1E.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Unit {
+    Bits = 0,
+    Words = 1,
 }
 
 /// Words that are read at once.
@@ -132,76 +142,152 @@ impl<L: Line> Plc<L> {
     pub fn read(&mut self, items: impl IntoIterator<Item = Item>) -> Result<Sample, Error> {
         let mut sample = Sample::default();
         for block in plan(items) {
-            let words = self.block(&block)?;
+            let words = self.words(&block)?;
             for &item in &block.items {
                 match words.as_ref().and_then(|words| block.value(item, words)) {
                     Some(value) => drop(sample.values.insert(item, value)),
-                    None => sample.hidden.push(item),
+                    None if words.is_some() => sample.hidden.push(item),
+                    None => {}
                 }
+            }
+            if words.is_none() {
+                self.piecewise(&block.items, &mut sample)?;
             }
         }
         Ok(sample)
     }
 
+    /// Reads the values of a block that the PLC rejects, which may begin or end where it has no more devices: bits one
+    /// by one, and halves of words.
+    fn piecewise(&mut self, items: &[Item], sample: &mut Sample) -> Result<(), Error> {
+        let (&[first, ..], &[.., last]) = (items, items) else {
+            return Ok(());
+        };
+        let values: Option<Vec<i32>> = match (first, last) {
+            (Item::Bit(_, first), Item::Bit(_, last)) if last - first >= MOST_BITS => None,
+            (Item::Bit(class, first), Item::Bit(_, last)) => {
+                let bits = self.bits(class, first, last - first + 1)?;
+                bits.and_then(|bits| {
+                    let numbers = items.iter().map(|item| match *item {
+                        Item::Bit(_, number) | Item::Word(_, number) => number,
+                    });
+                    let own = numbers.map(|number| bits.get((number - first) as usize).copied());
+                    own.collect()
+                })
+            }
+            _ => {
+                let mut block = Block::of(first);
+                let taken = items[1..].iter().all(|&item| block.take(&Block::of(item)));
+                let words = if taken { self.words(&block)? } else { None };
+                words.and_then(|words| {
+                    let values = items.iter().map(|&item| block.value(item, &words));
+                    values.collect()
+                })
+            }
+        };
+        match (values, items) {
+            (Some(values), _) => sample.values.extend(items.iter().copied().zip(values)),
+            (None, &[only]) => sample.hidden.push(only),
+            (None, _) => {
+                let (before, after) = items.split_at(items.len() / 2);
+                self.piecewise(before, sample)?;
+                self.piecewise(after, sample)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Bits from a number on; `None` if the PLC rejects the request.
+    fn bits(&mut self, class: Class, first: u32, count: u32) -> Result<Option<Vec<i32>>, Error> {
+        let Some(codes) = codes(class, true) else {
+            return Ok(None);
+        };
+        // Two to a byte, the first in the high digit.
+        let answered = self.request(codes, (first, count), Unit::Bits)?;
+        let digits = |byte: u8| [byte >> 4, byte & 1].map(|digit| i32::from(digit & 1));
+        Ok(answered.map(|bytes| bytes.into_iter().flat_map(digits).collect()))
+    }
+
     /// The words of a block; `None` if the PLC rejects the request.
-    fn block(&mut self, block: &Block) -> Result<Option<Vec<u16>>, Error> {
-        let Some((code_1e, code_3e)) = codes(block.class, block.is_bit) else {
+    fn words(&mut self, block: &Block) -> Result<Option<Vec<u16>>, Error> {
+        let Some(codes) = codes(block.class, block.is_bit) else {
             return Ok(None);
         };
         let head = if block.is_bit {
             block.first * BITS
         } else {
             block.first
-        }
-        .to_le_bytes();
-        let [count, _, _, _] = block.count.to_le_bytes();
+        };
+        let answered = self.request(codes, (head, block.count), Unit::Words)?;
+        let words = |bytes: Vec<u8>| {
+            let pairs = bytes.chunks_exact(2);
+            let words = pairs.map(|pair| u16::from_le_bytes([pair[0], pair[1]]));
+            words.collect()
+        };
+        Ok(answered.map(words))
+    }
+
+    /// Sends a batch read, and receives what it reads; `None` if the PLC rejects it.
+    fn request(
+        &mut self,
+        (code_1e, code_3e): (u16, u8),
+        (head, count): (u32, u32),
+        unit: Unit,
+    ) -> Result<Option<Vec<u8>>, Error> {
+        let head = head.to_le_bytes();
+        let [points, ..] = count.to_le_bytes();
+        let length = match unit {
+            Unit::Bits => count.div_ceil(2) as usize,
+            Unit::Words => 2 * count as usize,
+        };
         let request = match self.frame {
             Frame::E1 => {
                 let [low, high] = code_1e.to_le_bytes();
-                let mut request = vec![0x01, 0xff];
+                let mut request = vec![unit as u8, 0xff];
                 request.extend(TIMER);
                 request.extend(head);
-                request.extend([low, high, count, 0]);
+                request.extend([low, high, points, 0]);
                 request
             }
             Frame::E3 => {
+                let subcommand = match unit {
+                    Unit::Bits => 1,
+                    Unit::Words => 0,
+                };
                 // Network, PC, module and station: the PLC at the end of the connection.
                 let mut request = vec![0x50, 0, 0, 0xff, 0xff, 3, 0, 12, 0];
                 request.extend(TIMER);
-                request.extend([
-                    0x01, 0x04, 0, 0, head[0], head[1], head[2], code_3e, count, 0,
-                ]);
+                request.extend([0x01, 0x04, subcommand, 0]);
+                request.extend([head[0], head[1], head[2], code_3e, points, 0]);
                 request
             }
         };
         let sent = self.line.send(&request, self.patience.timeout);
         sent.map_err(|error| self.failure(&error.to_string()))?;
         let bytes = match self.frame {
-            Frame::E1 => self.answer_1e(2 * block.count as usize)?,
+            Frame::E1 => self.answer_1e(unit, length)?,
             Frame::E3 => self.answer_3e()?,
         };
-        let words = |bytes: Vec<u8>| {
-            let pairs = bytes.chunks_exact(2);
-            pairs
-                .map(|pair| u16::from_le_bytes([pair[0], pair[1]]))
-                .collect()
-        };
         match bytes {
-            Some(bytes) if bytes.len() != 2 * block.count as usize => {
+            Some(bytes) if bytes.len() != length => {
                 Err(self.failure("the PLC's answer has another length than was asked for"))
             }
-            bytes => Ok(bytes.map(words)),
+            bytes => Ok(bytes),
         }
     }
 
-    fn answer_1e(&mut self, count: usize) -> Result<Option<Vec<u8>>, Error> {
+    fn answer_1e(&mut self, unit: Unit, length: usize) -> Result<Option<Vec<u8>>, Error> {
+        /// What an answer adds to its command.
+        const ANSWER: u8 = 0x80;
         /// End code that another one follows.
         const DETAILED: u8 = 0x5b;
         let head = self.receive(2)?;
         match head[..] {
-            [0x81, 0] => self.receive(count).map(Some),
-            [0x81, DETAILED] => self.receive(2).map(|_| None),
-            [0x81, _] => Ok(None),
+            [answer, code] if answer == unit as u8 | ANSWER => match code {
+                0 => self.receive(length).map(Some),
+                DETAILED => self.receive(2).map(|_| None),
+                _ => Ok(None),
+            },
             _ => Err(self.failure("what answers does not speak MC protocol, frame 1E, in binary")),
         }
     }

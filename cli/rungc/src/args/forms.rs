@@ -98,9 +98,9 @@ pub enum McFrame {
 }
 
 fn host(text: &str) -> Result<LineEnd, String> {
-    match LineEnd::parse(&format!("tcp:{text}"))? {
-        end @ LineEnd::Tcp(_) => Ok(end),
-        _ => Err("write it as HOST:PORT".to_string()),
+    match LineEnd::parse(&format!("tcp:{text}")) {
+        Ok(end @ LineEnd::Tcp(_)) if !text.starts_with("tcp:") => Ok(end),
+        _ => Err("write it as HOST:PORT, such as `192.168.1.10:5000`".to_string()),
     }
 }
 

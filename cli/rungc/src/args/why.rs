@@ -35,7 +35,7 @@ pub struct WhyArgs {
     #[arg(long, conflicts_with_all = ["port", "mc"], value_name = "FILE")]
     pub machine: Option<PathBuf>,
     /// Compare the program in the PLC with the file first, which takes as long as `rungc read`.
-    #[arg(long, requires = "port")]
+    #[arg(long, requires = "port", conflicts_with = "mc")]
     pub compare: bool,
     #[command(flatten)]
     pub plc: PlcArgs,

@@ -3,7 +3,9 @@
 use super::line::{self, Line};
 use super::read::compare;
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, interruption, print_text, read_as_written};
+use super::{
+    Context, Failure, Outcome, Result, found_reading, interruption, read_as_written, stream_text,
+};
 use crate::args::{WatchArgs, WatchTo};
 use crate::report::Reporter;
 use rungc::Names;
@@ -13,6 +15,7 @@ use rungc_monitor::{Item, Plc, Sample};
 use rungc_syntax::{Device, DeviceClass, Program};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::io::ErrorKind;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -36,6 +39,11 @@ fn watch(
     (reporter, cx): (&mut Reporter, Context),
 ) -> Result {
     let read = read_as_written(subject, reporter)?;
+    let findings = found_reading(subject, &read);
+    if findings.failed() {
+        reporter.add(&findings)?;
+        return Ok(Outcome::of(&findings));
+    }
     let program = &read.program;
     let items = wanted(&devices, subject, program)?;
     interruption::note();
@@ -65,7 +73,13 @@ fn wanted(
         let devices = named.map(|item| (item, device_of(item)));
         let terminals =
             devices.filter(|(_, device)| matches!(device.class, DeviceClass::X | DeviceClass::Y));
-        return Ok(terminals.collect());
+        let terminals: BTreeMap<_, _> = terminals.collect();
+        return match terminals.is_empty() {
+            true => Err(Failure::Because(
+                "the program names no input or output: name the devices to show".to_string(),
+            )),
+            false => Ok(terminals),
+        };
     }
     let names = Names::of(program);
     let mut wanted = BTreeMap::new();
@@ -77,6 +91,9 @@ fn wanted(
             return Err(Failure::Because(why));
         }
         let own = items_of(device, model).into_iter();
+        if own.len() == 0 {
+            return Err(Failure::Because(format!("`{device}` has no value")));
+        }
         wanted.extend(own.map(|item| (item, device)));
     }
     Ok(wanted)
@@ -90,47 +107,46 @@ struct Watched<'a> {
 }
 
 impl Watched<'_> {
-    /// Looks at the values until the time is over, or the user ends it.
+    /// Looks at the values until the time is over, the user ends it, or the reader of the output has gone.
     fn follow(&self, plc: &mut Plc<Line>, cx: Context) -> Result {
         let begin = Instant::now();
-        let end = self.args.duration.map(Duration::from_millis);
+        let end = self
+            .args
+            .duration
+            .map(|ms| begin + Duration::from_millis(ms));
         let mut last: Option<Sample> = None;
         loop {
             let look = Instant::now();
-            let sample = match plc.read(self.items.keys().copied()) {
-                Err(_) if interruption::is_requested() && last.is_some() => break,
-                sample => sample?,
-            };
+            let sample = plc.read(self.items.keys().copied())?;
             let ms = look.duration_since(begin).as_millis();
-            match &last {
+            let written = match &last {
                 None => {
                     self.report_hidden(&sample, cx);
-                    print_text(&self.whole(ms, &sample))?;
+                    if sample.values.is_empty() {
+                        let why = "the PLC shows none of these devices".to_string();
+                        return Err(Failure::Because(why));
+                    }
+                    self.whole(ms, &sample)
                 }
-                Some(last) => print_text(&self.changes(ms, last, &sample))?,
+                Some(last) => self.changes(ms, last, &sample),
+            };
+            match stream_text(&written) {
+                Err(error) if error.kind() == ErrorKind::BrokenPipe => break,
+                printed => printed?,
             }
             last = Some(sample);
-            let is_over = end.is_some_and(|end| begin.elapsed() >= end);
-            if self.args.once || is_over || !self.wait(look) {
+            if self.args.once {
+                break;
+            }
+            let next = look + Duration::from_millis(self.args.every);
+            if !wait(end.map_or(next, |end| next.min(end))) {
+                return Ok(Outcome::Interrupted);
+            }
+            if end.is_some_and(|end| Instant::now() >= end) {
                 break;
             }
         }
         Ok(Outcome::Success)
-    }
-
-    /// Waits for the next look; false if the user ends it.
-    fn wait(&self, look: Instant) -> bool {
-        let every = Duration::from_millis(self.args.every);
-        while !interruption::is_requested() {
-            let Some(rest) = every
-                .checked_sub(look.elapsed())
-                .filter(|rest| !rest.is_zero())
-            else {
-                return true;
-            };
-            thread::sleep(rest.min(NAP));
-        }
-        false
     }
 
     fn report_hidden(&self, sample: &Sample, cx: Context) {
@@ -184,6 +200,18 @@ impl Watched<'_> {
             }
         };
     }
+}
+
+/// Waits until a moment; false if the user ends it before.
+fn wait(until: Instant) -> bool {
+    while !interruption::is_requested() {
+        let rest = until.saturating_duration_since(Instant::now());
+        if rest.is_zero() {
+            return true;
+        }
+        thread::sleep(rest.min(NAP));
+    }
+    false
 }
 
 /// Name of a value: of a timer or counter its contact and its value are apart.

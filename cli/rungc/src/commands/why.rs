@@ -10,7 +10,7 @@ use super::{
 };
 use crate::args::{Format, WhyArgs};
 use crate::report::{Reporter, to_json};
-use rungc::monitor::device_of;
+use rungc::monitor::{device_of, items_of};
 use rungc::settings::is_written_outside;
 use rungc::{Names, Why};
 use rungc_frontend::Read;
@@ -121,7 +121,15 @@ impl Run<'_> {
             false => None,
         };
         let items = rungc::monitor::items(&self.read.program, self.module.model);
-        let sample = plc.read(items)?;
+        let mut sample = plc.read(items)?;
+        let (program, model) = (&self.read.program, self.module.model);
+        let indexed = rungc::monitor::indexed_items(program, model, &sample);
+        sample.extend(plc.read(indexed)?);
+        let own = items_of(device, model);
+        if own.iter().any(|item| sample.hidden.contains(item)) {
+            let why = format!("the PLC does not show `{device}`");
+            return Err(Failure::Because(why));
+        }
         let mut session = self.session();
         rungc::monitor::take_over(&mut session, &sample);
         let mut why = explainer.at_moment(&mut session, self.args.scan, device, None);

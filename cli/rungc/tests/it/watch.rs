@@ -1,14 +1,15 @@
 //! `rungc watch`, and `rungc why` of a PLC: against a running program, by each connection, and against a PLC of others.
 
 use crate::common::running::Run;
-use crate::common::{folder, rungc, text};
+use crate::common::{HANG, folder, rungc, soon, text};
 use crate::peers::python;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::Path;
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 use std::sync::{Arc, Mutex};
 use std::thread;
+use std::time::{Duration, Instant};
 
 /// M8012 is what the harness watches; the rest is a start that waits for a guard, a timer and a counter.
 const STATION: &str = "\
@@ -86,7 +87,8 @@ fn the_reason_is_that_of_the_plc() {
     for connection in &connections {
         let why = ["why", "p.il", "motor", "--model", "fx3u"];
         let answer = printed(folder.path(), &why, connection);
-        let first = "Y000 \"motor\" is off in the PLC,\nbecause X000 \"start\" is off and X002 \"guard closed\" is off.";
+        let first = "Y000 \"motor\" is off in the PLC,\nbecause T0 has not run its time (0 s of 2 s, 2 s to go), X000 \"start\" is off and \
+                     X002 \"guard closed\" is off.";
         assert!(answer.starts_with(first), "{answer}");
     }
     let json = [
@@ -216,6 +218,11 @@ fn bad_addresses_are_errors() {
         (&["watch", "p.il", "--mc", &closed], "cannot open"),
         (&["watch", "p.il", "--mc", "plc"], "HOST:PORT"),
         (
+            &["watch", "p.il", "--mc", "tcp:127.0.0.1:5000"],
+            "HOST:PORT",
+        ),
+        (&["watch", "p.il", "P0", "--mc", &closed], "has no value"),
+        (
             &["watch", "p.il", "M99999", "--mc", &closed],
             "does not exist on",
         ),
@@ -223,7 +230,10 @@ fn bad_addresses_are_errors() {
             &["watch", "p.il", "moter", "--mc", &closed],
             "did you mean `motor`",
         ),
-        (&["watch", "p.il", "--mc", &closed, "--compare"], "--port"),
+        (
+            &["watch", "p.il", "--mc", &closed, "--compare"],
+            "cannot be used with",
+        ),
         (
             &["why", "p.il", "Y0", "--mc", &closed, "--set", "X0=1"],
             "cannot be used with",
@@ -234,6 +244,107 @@ fn bad_addresses_are_errors() {
         let messages = text(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{args:?}: {messages}");
         assert!(messages.contains(expected), "{args:?}: {messages}");
+    }
+}
+
+/// Devices at the end of their class, where a request of whole words is rejected.
+#[test]
+fn the_last_devices_are_shown() {
+    for (model, devices) in [
+        ("fx1s", ["Y000", "X000", "S127"]),
+        ("fx2n", ["S999", "M3071", "Y000"]),
+        ("fx3u", ["X367", "X177", "S4095"]),
+    ] {
+        let list = format!(
+            "LD X000\nAND {0}\nOUT M0\nLD {1}\nAND {2}\nOUT M1\nEND\n",
+            devices[0], devices[1], devices[2]
+        );
+        let folder = folder(&[("p.il", list.as_bytes())]);
+        let run = Run::new(folder.path(), model, &["--mc"], &[]);
+        let mc = format!("127.0.0.1:{}", run.port("MC protocol"));
+        let watch = [
+            &["watch", "p.il", "--model", model, "--once", "--to", "csv"][..],
+            &devices,
+        ]
+        .concat();
+        for frame in ["1e", "3e"] {
+            let more = ["--mc", &mc, "--mc-frame", frame].map(str::to_owned);
+            let shown = printed(folder.path(), &watch, &more);
+            for device in devices {
+                assert!(
+                    shown.contains(&format!(",{device},0")),
+                    "{model} {frame}: {shown}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_not_shown_is_not_explained() {
+    let list = "LD M8002\nMOV K100 R0\nLD> R0 K50\nOUT Y000\nLD M8002\nMOV K5 Z0\nSET M5\nLD M0Z0\nOUT Y001\nEND\n";
+    let folder = folder(&[("p.il", list.as_bytes())]);
+    let run = Run::new(folder.path(), "fx3u", &["--fx"], &[]);
+    let port = format!("tcp:127.0.0.1:{}", run.port("programming port"));
+    let why = |device: &str| rungc(folder.path(), &["why", "p.il", device, "--port", &port]);
+    let output = why("R0");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("does not show `R0`"));
+    let answer = text(&why("Y000").stdout);
+    assert!(
+        answer.contains("R0 is 0") && answer.contains("taken for off or 0: R0"),
+        "{answer}"
+    );
+    // What an index leads to is read, too.
+    let answer = text(&why("Y001").stdout);
+    assert!(answer.starts_with("Y001 is on in the PLC"), "{answer}");
+    assert!(!answer.contains("next scan"), "{answer}");
+}
+
+#[test]
+fn a_watch_ends_as_it_should() {
+    let (folder, _run, connections) = station("fx3u");
+    let mc = &connections[1];
+    let begin = Instant::now();
+    printed(
+        folder.path(),
+        &["watch", "p.il", "--every", "1h", "--for", "1s"],
+        mc,
+    );
+    assert!(begin.elapsed() >= Duration::from_secs(1) && begin.elapsed() < HANG);
+    let mut watch = Command::new(env!("CARGO_BIN_EXE_rungc"));
+    watch
+        .args(["watch", "p.il", "--every", "50ms"])
+        .args(mc)
+        .current_dir(folder.path());
+    watch.stdout(Stdio::piped()).stderr(Stdio::null());
+    // The reader has gone.
+    let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(["watch", "p.il", "T0", "--every", "0ms", "--for", "60s"])
+        .args(mc)
+        .current_dir(folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    soon("the watch ends", || child.try_wait().unwrap().is_some());
+    #[cfg(unix)]
+    {
+        let mut child = watch.spawn().unwrap();
+        let mut first = String::new();
+        BufReader::new(child.stdout.take().unwrap())
+            .read_line(&mut first)
+            .unwrap();
+        let id = child.id().to_string();
+        assert!(
+            Command::new("kill")
+                .args(["-INT", &id])
+                .status()
+                .unwrap()
+                .success()
+        );
+        assert_eq!(child.wait().unwrap().code(), Some(130));
     }
 }
 
