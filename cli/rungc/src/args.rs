@@ -653,9 +653,10 @@ mod tests {
         assert_eq!(outputs, tested, "tests/outputs.txt has a line for each");
     }
 
-    /// Options whose values are a choice of each command, or a file, a folder or a flag by what the command makes.
-    const DIFFERENT: [&str; 8] = [
-        "engine", "format", "io", "model", "output", "report", "retain", "to",
+    /// Options whose values are a choice of each command, or a file, a folder or a flag by what the command makes;
+    /// `--mc` is the address of a server of a run, or that of a PLC that is read.
+    const DIFFERENT: [&str; 9] = [
+        "engine", "format", "io", "mc", "model", "output", "report", "retain", "to",
     ];
 
     #[test]
