@@ -1,7 +1,8 @@
 //! Reads the devices of a running PLC over its ports, and writes none: there is no request here that would change
 //! anything in a PLC.
 //!
-//! Start reading at [`Plc`]: a programming port ([`fx`]) or an Ethernet module ([`mc`]). A [`Line`] carries the characters.
+//! Start reading at [`Plc`]: a programming port ([`fx`]) or an Ethernet module ([`mc`]). A [`Line`] carries the
+//! characters.
 
 mod client;
 pub mod fx;
@@ -52,7 +53,7 @@ pub enum Item {
     Word(Class, u32),
 }
 
-/// Values that were read one after another, while the PLC went on with its scans.
+/// Values that were read one after another, while the PLC continued its scans.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub struct Sample {
     /// The values; a bit is 0 or 1.

@@ -1,4 +1,5 @@
-//! A PLC that speaks the MC protocol over TCP, in binary: frame 1E, which the Ethernet modules of FX3 understand, or 3E.
+//! A PLC that speaks the MC protocol over TCP, in binary: frame 1E, which the Ethernet modules of FX3 understand, or
+//! 3E.
 
 use crate::{Error, Item, Line, Patience, Sample};
 use rungc_rt::Class;

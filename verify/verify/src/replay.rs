@@ -353,31 +353,19 @@ pub fn plain(
     if let Some(scans) = happens(&trace) {
         trace.scans.truncate(scans);
     }
-    // A copy costs as much as it has values, which is much where a panel writes thousands of registers: no change is
-    // tried that changes nothing, and the limit counts the others.
-    let attempt = |trace: &mut Trace, change: &dyn Fn(&mut Trace)| {
-        limit.charge(trace.scans.iter().map(|scan| scan.set.len()).sum::<usize>() / COPIED);
-        if limit.is_over() {
-            return;
-        }
-        let mut other = trace.clone();
-        change(&mut other);
-        if happens(&other) == Some(other.scans.len()) {
-            *trace = other;
-        }
-    };
+    let attempts = Attempts { happens, limit };
     /// A scan time that people expect.
     const USUAL_MS: u32 = 10;
     let usual_ms = USUAL_MS.min(most_ms);
     if trace.scans.iter().skip(1).any(|scan| scan.ms != usual_ms) {
-        attempt(&mut trace, &|trace| {
+        attempts.change(&mut trace, &|trace| {
             let later = trace.scans.iter_mut().skip(1);
             later.for_each(|scan| scan.ms = usual_ms);
         });
     }
     let on = trace.start.iter().filter(|(_, value)| **value != 0);
     for key in on.map(|(key, _)| *key).collect::<Vec<_>>() {
-        attempt(&mut trace, &|trace| {
+        attempts.change(&mut trace, &|trace| {
             trace.start.insert(key, 0);
         });
     }
@@ -388,44 +376,70 @@ pub fn plain(
     };
     for at in 0..steps {
         if trace.scans[at].scan_time != 0 {
-            attempt(&mut trace, &|trace| trace.scans[at].scan_time = 0);
+            attempts.change(&mut trace, &|trace| trace.scans[at].scan_time = 0);
         }
         if trace.scans[at].restart {
-            attempt(&mut trace, &|trace| trace.scans[at].restart = false);
+            attempts.change(&mut trace, &|trace| trace.scans[at].restart = false);
         }
         if at > 0 && trace.scans[at].ms != usual_ms {
-            attempt(&mut trace, &|trace| trace.scans[at].ms = usual_ms);
+            attempts.change(&mut trace, &|trace| trace.scans[at].ms = usual_ms);
         }
         for key in trace.scans[at].set.keys().copied().collect::<Vec<_>>() {
             if limit.is_over() {
                 return trace;
             }
-            // Off from here on, or as in the scan before.
-            let is_off = |scan: &Scan| scan.set.get(&key) == Some(&0);
-            if !trace.scans[at..].iter().all(is_off) {
-                attempt(&mut trace, &|trace| {
-                    trace.scans[at..].iter_mut().for_each(|scan| {
-                        scan.set.insert(key, 0);
-                    });
-                });
-            }
-            if !is_off(&trace.scans[at]) {
-                attempt(&mut trace, &|trace| {
-                    trace.scans[at].set.insert(key, 0);
-                });
-            }
-            let before = at
-                .checked_sub(1)
-                .and_then(|before| trace.scans[before].set.get(&key));
-            let before = before.copied().unwrap_or(0);
-            if trace.scans[at].set.get(&key) != Some(&before) {
-                attempt(&mut trace, &|trace| {
-                    trace.scans[at].set.insert(key, before);
-                });
-            }
+            attempts.settle(&mut trace, at, key);
         }
     }
     trace
+}
+
+/// Changes of a run that are tried. A copy costs as much as it has values, which is much where a panel writes thousands
+/// of registers: no change is tried that changes nothing, and the limit counts the others.
+struct Attempts<'a> {
+    happens: &'a dyn Fn(&Trace) -> Option<usize>,
+    limit: &'a Limit,
+}
+
+impl Attempts<'_> {
+    /// Changes a run, if it still does what it is about.
+    fn change(&self, trace: &mut Trace, change: &dyn Fn(&mut Trace)) {
+        let values: usize = trace.scans.iter().map(|scan| scan.set.len()).sum();
+        self.limit.charge(values / COPIED);
+        if self.limit.is_over() {
+            return;
+        }
+        let mut other = trace.clone();
+        change(&mut other);
+        if (self.happens)(&other) == Some(other.scans.len()) {
+            *trace = other;
+        }
+    }
+
+    /// Leaves a device off from a scan on, or in this scan, or as it was in the scan before.
+    fn settle(&self, trace: &mut Trace, at: usize, key: Key) {
+        let is_off = |scan: &Scan| scan.set.get(&key) == Some(&0);
+        if !trace.scans[at..].iter().all(is_off) {
+            self.change(trace, &|trace| {
+                trace.scans[at..].iter_mut().for_each(|scan| {
+                    scan.set.insert(key, 0);
+                });
+            });
+        }
+        if !is_off(&trace.scans[at]) {
+            self.change(trace, &|trace| {
+                trace.scans[at].set.insert(key, 0);
+            });
+        }
+        let before = at.checked_sub(1);
+        let before = before.and_then(|before| trace.scans[before].set.get(&key));
+        let before = before.copied().unwrap_or(0);
+        if trace.scans[at].set.get(&key) != Some(&before) {
+            self.change(trace, &|trace| {
+                trace.scans[at].set.insert(key, before);
+            });
+        }
+    }
 }
 
 /// A device with a name as test files have it, and its value.

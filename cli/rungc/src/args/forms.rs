@@ -52,7 +52,13 @@ pub struct ReadArgs {
 #[derive(Args, Clone, Debug)]
 pub struct LineArgs {
     /// Bit rate; the format is always 7 data bits, even parity, 1 stop bit.
-    #[arg(long, requires = "port", default_value_t = 9600, value_parser = clap::value_parser!(u32).range(300..=115_200), value_name = "BITS_PER_SECOND")]
+    #[arg(
+        long,
+        requires = "port",
+        default_value_t = 9600,
+        value_parser = clap::value_parser!(u32).range(300..=115_200),
+        value_name = "BITS_PER_SECOND"
+    )]
     pub baud: u32,
     /// Time to wait for a response.
     #[arg(long, default_value = "1s", value_parser = crate::time::parse_wait, value_name = "TIME")]

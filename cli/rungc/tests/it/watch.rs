@@ -207,7 +207,7 @@ fn changes_are_lines_until_the_end() {
 #[test]
 fn bad_addresses_are_errors() {
     let folder = folder(&[("p.il", STATION.as_bytes())]);
-    // Nobody listens there.
+    // Nothing listens there.
     let closed = TcpListener::bind("127.0.0.1:0")
         .unwrap()
         .local_addr()

@@ -125,8 +125,8 @@ impl Space {
         base + u32::from(bit / 8)
     }
 
-    /// The byte that holds a bit of a device, and the bit's position in it: of a timer or counter its contact. `None` if
-    /// it has no address.
+    /// The byte that holds a bit of a device, and the bit's position in it: of a timer or counter its contact. `None`
+    /// if it has no address.
     pub fn bit_address(self, class: Class, number: u32) -> Option<(u32, u32)> {
         self.rows().iter().find_map(|&(start, end, area)| {
             let Area::Bits(of, first) = area else {
