@@ -32,8 +32,8 @@ pub struct Lag {
     pub expired: Option<Expired>,
 }
 
-/// Expiry of a timer with one preset. Once it has expired, the clock shows less than the preset, which the timer had not
-/// reached in the scan before, and a scan.
+/// Expiry of a timer with one preset. Once it has expired, the clock shows less than the preset and a scan, as the
+/// timer had not reached the preset in the scan before.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Expired {
     /// The preset in units, a constant.
