@@ -8,7 +8,8 @@ use rungc_models::Model;
 use rungc_models::runs::{IndexAlias, name_class, rt_class};
 use rungc_monitor::{Item, Sample};
 use rungc_rt::{Class, Plc as _, special};
-use rungc_sim::Session;
+use rungc_sim::record::{Reading, TEXT_LENGTH, Values};
+use rungc_sim::{Session, Target};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Index, OperandKind, Program};
 use std::collections::BTreeSet;
 
@@ -87,6 +88,59 @@ pub fn items_of(device: Device, model: &Model) -> Vec<Item> {
         DeviceClass::X | DeviceClass::Y | DeviceClass::M | DeviceClass::S => vec![bit],
         DeviceClass::T | DeviceClass::C => vec![bit, word],
         _ => vec![word],
+    }
+}
+
+/// The values that a target is made of; empty for what a PLC does not show: pulses, signals of modules.
+pub fn items_of_target(target: Target, model: &Model) -> Vec<Item> {
+    let (class, first, count) = target.devices(TEXT_LENGTH);
+    let numbers = match target {
+        Target::Pulses(_) | Target::Frequency(_) | Target::Channel(_) => 0..0,
+        // Shorter at the end of a class.
+        Target::Text(..) => {
+            let there = (first..first + count).take_while(|&number| model.has(class, number));
+            first..first + there.count() as u32
+        }
+        _ => first..first.saturating_add(count),
+    };
+    let items = numbers.flat_map(|number| items_of(Device { class, number }, model));
+    let is_bit = matches!(target, Target::Bit(..) | Target::Nibbles(..));
+    items
+        .filter(|item| matches!(item, Item::Bit(..)) == is_bit)
+        .collect()
+}
+
+/// Value of a target in a sample; `None` where the PLC did not show all of it.
+pub fn reading(target: Target, sample: &Sample, model: &Model) -> Option<Reading> {
+    Reading::of_values(&Sampled { sample, model }, target)
+}
+
+/// The values of a sample, by devices.
+struct Sampled<'a> {
+    sample: &'a Sample,
+    model: &'a Model,
+}
+
+impl Sampled<'_> {
+    fn value(&self, class: DeviceClass, number: u32, is_bit: bool) -> Option<i32> {
+        let items = items_of(Device { class, number }, self.model);
+        let mut own = items.iter();
+        let own = own.find(|item| matches!(item, Item::Bit(..)) == is_bit)?;
+        self.sample.values.get(own).copied()
+    }
+}
+
+impl Values for Sampled<'_> {
+    fn bit(&self, class: DeviceClass, number: u32) -> Option<bool> {
+        self.value(class, number, true).map(|value| value != 0)
+    }
+
+    fn word(&self, class: DeviceClass, number: u32) -> Option<i16> {
+        self.value(class, number, false).map(|value| value as i16)
+    }
+
+    fn counter32(&self, number: u32) -> Option<i32> {
+        self.value(DeviceClass::C, number, false)
     }
 }
 

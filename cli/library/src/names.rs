@@ -112,6 +112,20 @@ impl Names {
         target.map_err(|wrong| self.unknown(text, &wrong))
     }
 
+    /// Reads what is watched: as [`target`](Self::target), or devices in a row: `Y000..Y007`.
+    ///
+    /// # Errors
+    /// Description of the mistake.
+    pub fn targets(&self, text: &str) -> Result<Vec<Target>, String> {
+        match self.range(text) {
+            Ok((class, first, last)) if first < last => {
+                let names = (first..=last).map(|number| class.number(number).to_string());
+                names.map(|name| self.target(&name)).collect()
+            }
+            _ => self.target(text).map(|target| vec![target]),
+        }
+    }
+
     /// Reads one device: `M100`.
     ///
     /// # Errors

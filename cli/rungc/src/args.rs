@@ -30,7 +30,8 @@ pub use explore::{ExploreArgs, Latched, SearchEngine};
 pub use flash::FlashArgs;
 pub use fleet::FleetArgs;
 pub use forms::{
-    ConvertArgs, ConvertTo, LineArgs, McFrame, NamesFile, PlcArgs, PlcopenBody, ReadArgs, ReadFrom,
+    ConvertArgs, ConvertTo, LineArgs, McFrame, ModbusEnd, NamesFile, PlcArgs, PlcopenBody,
+    ReadArgs, ReadFrom, RtuFormat,
 };
 pub use listings::{StatsArgs, StatsTo, ViewArgs, XrefArgs, XrefTo};
 pub use lsp::LspArgs;

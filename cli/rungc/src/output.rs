@@ -383,13 +383,21 @@ fn making(path: &Path, mode: u32) -> Result<NamedTempFile, Failure> {
 /// Makes a folder, and those above it.
 ///
 /// # Errors
-/// Something else has its name, or the system's error, with the folder's name.
+/// Something else has the name of one of them, or the system's error, with the folder's name.
 pub fn make_folder(folder: &Path) -> Result<(), Failure> {
-    if folder.exists() && !folder.is_dir() {
-        let why = format!("{} is not a folder", folder.display());
+    check_folder(folder)?;
+    fs::create_dir_all(folder).map_err(|error| at(folder, error))
+}
+
+/// Checks that a folder is there, or could be made.
+fn check_folder(folder: &Path) -> Result<(), Failure> {
+    let mut parents = folder.ancestors();
+    let nearest = parents.find(|parent| fs::symlink_metadata(parent).is_ok());
+    if let Some(other) = nearest.filter(|nearest| !nearest.is_dir()) {
+        let why = format!("{} is not a folder", other.display());
         return Err(Failure::Because(why));
     }
-    fs::create_dir_all(folder).map_err(|error| at(folder, error))
+    Ok(())
 }
 
 /// Error of the system, with the path that it is about.

@@ -100,10 +100,7 @@ impl<L: Line> Plc<L> {
             let bytes = self.block(&block)?;
             for &(item, place) in &block.places {
                 let value = bytes.as_deref().and_then(|bytes| block.value(place, bytes));
-                match value {
-                    Some(value) => drop(sample.values.insert(item, value)),
-                    None => sample.hidden.push(item),
-                }
+                sample.enter(item, value);
             }
         }
         Ok(sample)

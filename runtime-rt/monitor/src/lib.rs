@@ -1,12 +1,13 @@
 //! Reads the devices of a running PLC over its ports, and writes none: there is no request here that would change
 //! anything in a PLC.
 //!
-//! Start reading at [`Plc`]: a programming port ([`fx`]) or an Ethernet module ([`mc`]). A [`Line`] carries the
-//! characters.
+//! Start reading at [`Plc`]: a programming port ([`fx`]), an Ethernet module ([`mc`]) or a Modbus slave ([`modbus`]). A
+//! [`Line`] carries the characters.
 
 mod client;
 pub mod fx;
 pub mod mc;
+pub mod modbus;
 mod plan;
 
 pub use client::{Client, Patience, Reply, number};
@@ -63,6 +64,14 @@ pub struct Sample {
 }
 
 impl Sample {
+    /// Enters what the PLC has shown of a value.
+    fn enter(&mut self, item: Item, value: Option<i32>) {
+        match value {
+            Some(value) => drop(self.values.insert(item, value)),
+            None => self.hidden.push(item),
+        }
+    }
+
     /// Adds what a later look has shown.
     pub fn extend(&mut self, later: Sample) {
         self.values.extend(later.values);
@@ -76,6 +85,8 @@ pub enum Plc<L> {
     Port(fx::Plc<L>),
     /// By the MC protocol.
     Mc(mc::Plc<L>),
+    /// As a Modbus slave.
+    Modbus(modbus::Plc<L>),
 }
 
 impl<L: Line> Plc<L> {
@@ -87,6 +98,7 @@ impl<L: Line> Plc<L> {
         match self {
             Plc::Port(plc) => plc.read(items),
             Plc::Mc(plc) => plc.read(items),
+            Plc::Modbus(plc) => plc.read(items),
         }
     }
 
@@ -94,7 +106,7 @@ impl<L: Line> Plc<L> {
     pub fn title(&self) -> String {
         match self {
             Plc::Port(plc) => plc.title(),
-            Plc::Mc(_) => "a PLC".to_string(),
+            Plc::Mc(_) | Plc::Modbus(_) => "a PLC".to_string(),
         }
     }
 }

@@ -143,16 +143,13 @@ impl<L: Line> Plc<L> {
     pub fn read(&mut self, items: impl IntoIterator<Item = Item>) -> Result<Sample, Error> {
         let mut sample = Sample::default();
         for block in plan(items) {
-            let words = self.words(&block)?;
-            for &item in &block.items {
-                match words.as_ref().and_then(|words| block.value(item, words)) {
-                    Some(value) => drop(sample.values.insert(item, value)),
-                    None if words.is_some() => sample.hidden.push(item),
-                    None => {}
+            match self.words(&block)? {
+                Some(words) => {
+                    for &item in &block.items {
+                        sample.enter(item, block.value(item, &words));
+                    }
                 }
-            }
-            if words.is_none() {
-                self.piecewise(&block.items, &mut sample)?;
+                None => self.piecewise(&block.items, &mut sample)?,
             }
         }
         Ok(sample)

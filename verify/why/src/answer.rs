@@ -36,6 +36,11 @@ pub struct How {
     pub pulses: bool,
     /// True if a way was found: `actions`.
     pub found: bool,
+    /// Reason why no way was searched for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub not_searched: Option<&'static str>,
+    /// Longest time that was waited in a row, in milliseconds.
+    pub longest_wait_ms: u64,
     /// What to do, in this order; the device changes with the last of them. None of them can be left out.
     pub actions: Vec<Action>,
     /// Inputs, and devices that nothing in the program writes, of which changes were tried, with their comments.

@@ -18,7 +18,7 @@ use rungc_models::runs::is_special;
 use rungc_rt::Plc as _;
 use rungc_rt::special::M_OUTPUTS_OFF;
 use rungc_sim::{Session, Target};
-use rungc_syntax::{Device, DeviceClass, Program};
+use rungc_syntax::{Device, DeviceClass, OperandKind, Program};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Explains devices of a program.
@@ -265,7 +265,7 @@ impl<'p> Explainer<'p> {
         }
         let is_bit = !matches!(device.class, DeviceClass::T | DeviceClass::C);
         match (of("set").is_empty(), of("reset").is_empty()) {
-            (false, true) if coils.is_empty() && is_bit => {
+            (false, true) if coils.is_empty() && is_bit && !self.is_step(device) => {
                 notes.push(format!("{name} is set, and no RST resets it."));
             }
             (true, false) if coils.is_empty() && is_bit => {
@@ -289,6 +289,17 @@ impl<'p> Explainer<'p> {
             });
         }
         notes
+    }
+
+    /// True for a state with instructions of its own, which transitions to others reset.
+    fn is_step(&self, device: Device) -> bool {
+        let program = self.words.resolved.program;
+        let mut steps = program.instrs.iter();
+        steps.any(|instr| {
+            let operand = instr.operands.first().map(|operand| &operand.kind);
+            instr.mnemonic == "STL"
+                && matches!(operand, Some(OperandKind::Device(own, None)) if *own == device)
+        })
     }
 
     /// The causes of a device's state, and the devices at which they end.

@@ -86,9 +86,11 @@ impl Why {
                 let _ = write!(out, ", when {}", list(&since.with));
             }
         }
+        // What the PLC drives has no reason but itself.
+        let itself = format!("{name} is {}", moment.value);
         let mut because: Vec<String> = Vec::new();
         for link in &self.because {
-            if !because.contains(&link.now) {
+            if link.now != itself && !because.contains(&link.now) {
                 because.push(link.now.clone());
             }
         }
@@ -122,21 +124,27 @@ impl How {
             let _ = writeln!(out, "Then {name} {comes}.");
             return;
         }
-        let _ = match self.moments {
-            0 => writeln!(out, "What makes it {wanted} was not searched for."),
-            moments => writeln!(
+        if let Some(reason) = self.not_searched {
+            let _ = writeln!(
                 out,
-                "No way for it to {wanted} was found, in {moments} states that these lead to: {}.",
-                list(&self.levers)
-            ),
-        };
+                "For it to {wanted}, no way was searched for: {reason}."
+            );
+            return;
+        }
+        let _ = writeln!(
+            out,
+            "No way for it to {wanted} was found, in {} states that these lead to, with waits of up to {}: {}.",
+            self.moments,
+            time(self.longest_wait_ms),
+            list(&self.levers)
+        );
         if self.left_out > 0 {
             let _ = writeln!(
                 out,
                 "Not tried: {} devices that are farther away.",
                 self.left_out
             );
-        } else if !self.is_whole && self.moments > 0 {
+        } else if !self.is_whole {
             let _ = writeln!(out, "There are more states: the search has a limit.");
         }
     }

@@ -156,6 +156,12 @@ impl Explainer<'_> {
             on: wanted,
             pulses: device.class == DeviceClass::Y && outputs.contains(&device.number),
             found: false,
+            not_searched: match () {
+                () if !is_bit(device) => Some("a way is searched for bits alone"),
+                () if !session.machine().sys().running => Some("the PLC is in STOP"),
+                () => None,
+            },
+            longest_wait_ms: WAITS.map(|(_, ms)| ms).into_iter().max().unwrap_or(0),
             actions: Vec::new(),
             levers: cone
                 .levers
@@ -166,7 +172,7 @@ impl Explainer<'_> {
             moments: 0,
             is_whole: false,
         };
-        if !is_bit(device) || !session.machine().sys().running {
+        if how.not_searched.is_some() {
             return how;
         }
         let levers = cone.levers.iter().map(|lever| lever.device);

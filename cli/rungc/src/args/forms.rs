@@ -31,7 +31,7 @@ pub struct ConvertArgs {
 pub struct ReadArgs {
     /// Serial port connected to the PLC's programming port (`/dev/ttyUSB0`, `COM3`), or a serial device server
     /// (`tcp:HOST:PORT`).
-    #[arg(long, value_parser = serial_end, value_name = "PORT")]
+    #[arg(long, value_parser = serial_end, value_name = "PORT", group = "line")]
     pub port: LineEnd,
     #[command(flatten)]
     pub line: LineArgs,
@@ -51,10 +51,10 @@ pub struct ReadArgs {
 /// Arguments for the line to a PLC's programming port.
 #[derive(Args, Clone, Debug)]
 pub struct LineArgs {
-    /// Bit rate; the format is always 7 data bits, even parity, 1 stop bit.
+    /// Bit rate. At a programming port, the format is always 7 data bits, even parity, 1 stop bit.
     #[arg(
         long,
-        requires = "port",
+        requires = "line",
         default_value_t = 9600,
         value_parser = clap::value_parser!(u32).range(300..=115_200),
         value_name = "BITS_PER_SECOND"
@@ -64,7 +64,7 @@ pub struct LineArgs {
     #[arg(long, default_value = "1s", value_parser = crate::time::parse_wait, value_name = "TIME")]
     pub timeout: u64,
     /// Number of retries if a response is missing or damaged.
-    #[arg(long, requires = "port", default_value_t = 3, value_parser = clap::value_parser!(u32).range(..=100), value_name = "N")]
+    #[arg(long, requires = "line", default_value_t = 3, value_parser = clap::value_parser!(u32).range(..=100), value_name = "N")]
     pub retries: u32,
 }
 
@@ -73,11 +73,21 @@ pub struct LineArgs {
 pub struct PlcArgs {
     /// Read the PLC whose programming port is at this serial port (`/dev/ttyUSB0`, `COM3`) or at a serial device server
     /// (`tcp:HOST:PORT`).
-    #[arg(long, value_parser = serial_end, value_name = "PORT", conflicts_with = "mc")]
+    #[arg(long, value_parser = serial_end, value_name = "PORT", conflicts_with = "mc", group = "line")]
     pub port: Option<LineEnd>,
     /// Read a PLC that speaks the MC protocol over TCP, in binary, such as an FX3U with an Ethernet module.
-    #[arg(long, value_parser = host, value_name = "HOST:PORT")]
+    #[arg(long, value_parser = host, value_name = "HOST:PORT", conflicts_with = "modbus")]
     pub mc: Option<LineEnd>,
+    /// Read a PLC that is a Modbus slave: by Modbus TCP at `HOST:PORT`, by RTU at a serial port (`/dev/ttyUSB0`,
+    /// `COM3`) or at a serial device server (`tcp:HOST:PORT`).
+    #[arg(long, value_parser = modbus_end, value_name = "ADDRESS", group = "line")]
+    pub modbus: Option<ModbusEnd>,
+    /// Number of the Modbus slave.
+    #[arg(long, requires = "modbus", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=247), value_name = "N")]
+    pub unit: u8,
+    /// Parity and stop bits of the serial line to the Modbus slave.
+    #[arg(long, value_enum, requires = "modbus", default_value_t = RtuFormat::None1, value_name = "FORMAT")]
+    pub line_format: RtuFormat,
     /// Frame of the MC protocol: Ethernet modules of FX3 understand 1e; FX5, Q and L understand 3e.
     #[arg(long, value_enum, requires = "mc", default_value_t = McFrame::E1, value_name = "FRAME")]
     pub mc_frame: McFrame,
@@ -88,8 +98,40 @@ pub struct PlcArgs {
 impl PlcArgs {
     /// True if a PLC is named.
     pub fn names_plc(&self) -> bool {
-        self.port.is_some() || self.mc.is_some()
+        self.port.is_some() || self.mc.is_some() || self.modbus.is_some()
     }
+}
+
+/// Address of a Modbus slave.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum ModbusEnd {
+    /// By Modbus TCP.
+    Tcp(LineEnd),
+    /// By RTU on a serial line.
+    Rtu(LineEnd),
+}
+
+fn modbus_end(text: &str) -> Result<ModbusEnd, String> {
+    host(text)
+        .map(ModbusEnd::Tcp)
+        .or_else(|_| serial_end(text).map(ModbusEnd::Rtu))
+}
+
+/// Formats of a character of RTU, with 8 data bits.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum RtuFormat {
+    /// No parity, 1 stop bit.
+    #[value(name = "8N1")]
+    None1,
+    /// No parity, 2 stop bits.
+    #[value(name = "8N2")]
+    None2,
+    /// Even parity.
+    #[value(name = "8E1")]
+    Even,
+    /// Odd parity.
+    #[value(name = "8O1")]
+    Odd,
 }
 
 /// Frames of the MC protocol.

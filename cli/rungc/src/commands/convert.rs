@@ -28,6 +28,10 @@ pub fn run(args: &ConvertArgs, cx: Context) -> Result {
         let why = "`--body` chooses the language of `--to plcopen`; other forms have no choice";
         return Err(Failure::Because(why.to_owned()));
     }
+    if args.to.is_of_sources() && args.inputs.reading.kind.compiled {
+        let why = "`--compiled` reads the compiled program, and `--to st`, `labels` and `labels-csv` write sources";
+        return Err(Failure::Because(why.to_owned()));
+    }
     let mut outputs = OutputPaths::default();
     subject::each(&args.inputs, cx, |subject, reporter| {
         if args.to.is_of_sources() {

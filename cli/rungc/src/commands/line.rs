@@ -2,8 +2,10 @@
 
 use super::run::lines::wire::{self, Wire};
 use super::{Failure, eprint_line, interruption};
-use crate::args::{LineArgs, McFrame, PlcArgs};
-use rungc_monitor::{Patience, Plc, fx, mc};
+use crate::args::{LineArgs, McFrame, ModbusEnd, PlcArgs, RtuFormat};
+use rungc_host::io::silence;
+use rungc_models::Model;
+use rungc_monitor::{Patience, Plc, fx, mc, modbus};
 use rungc_project::serve::LineEnd;
 use rungc_rt::comm::{LineFormat, Parity};
 use std::io::{self, ErrorKind};
@@ -13,6 +15,20 @@ use std::time::Duration;
 pub struct Line {
     wire: Wire,
     name: String,
+}
+
+impl Line {
+    /// Sets the format of characters, or says that the line does not take it.
+    fn set_format(&mut self, format: LineFormat) {
+        if let Err(error) = self.wire.set_format(format) {
+            // A pseudo-terminal has no parity, and needs none.
+            let name = &self.name;
+            let (rate, bits) = (format.bits_per_second, format.data_bits);
+            eprint_line(&format!(
+                "rungc: {name} cannot be set to {rate} bit/s, {bits} data bits: {error}"
+            ));
+        }
+    }
 }
 
 impl rungc_monitor::Line for Line {
@@ -33,11 +49,11 @@ impl rungc_monitor::Line for Line {
     }
 }
 
-/// The PLC that a command names.
-pub fn plc(args: &PlcArgs) -> Result<Plc<Line>, Failure> {
-    match (&args.port, &args.mc) {
-        (Some(end), _) => at_port(end, &args.line).map(Plc::Port),
-        (None, Some(end)) => {
+/// The PLC that a command names, which runs a program for this model.
+pub fn plc(args: &PlcArgs, model: &Model) -> Result<Plc<Line>, Failure> {
+    match (&args.port, &args.mc, &args.modbus) {
+        (Some(end), ..) => at_port(end, &args.line).map(Plc::Port),
+        (_, Some(end), _) => {
             let frame = match args.mc_frame {
                 McFrame::E1 => mc::Frame::E1,
                 McFrame::E3 => mc::Frame::E3,
@@ -45,11 +61,39 @@ pub fn plc(args: &PlcArgs) -> Result<Plc<Line>, Failure> {
             let line = open(end)?;
             Ok(Plc::Mc(mc::Plc::new(line, patience(&args.line), frame)))
         }
-        (None, None) => {
-            let why = "name the PLC: `--port PORT` for its programming port, or `--mc HOST:PORT`";
+        (.., Some(end)) => slave(end, args, model).map(Plc::Modbus),
+        (None, None, None) => {
+            let why = "name the PLC: `--port PORT` for its programming port, `--mc HOST:PORT` or `--modbus ADDRESS`";
             Err(Failure::Because(why.to_string()))
         }
     }
+}
+
+/// The Modbus slave at an address.
+fn slave(end: &ModbusEnd, args: &PlcArgs, model: &Model) -> Result<modbus::Plc<Line>, Failure> {
+    let (line, framing) = match end {
+        ModbusEnd::Tcp(end) => (open(end)?, modbus::Framing::Tcp),
+        ModbusEnd::Rtu(end) => {
+            let mut line = open(end)?;
+            let (parity, stop_bits) = match args.line_format {
+                RtuFormat::None1 => (Parity::None, 1),
+                RtuFormat::None2 => (Parity::None, 2),
+                RtuFormat::Even => (Parity::Even, 1),
+                RtuFormat::Odd => (Parity::Odd, 1),
+            };
+            let format = LineFormat {
+                bits_per_second: args.line.baud,
+                parity,
+                stop_bits,
+                ..LineFormat::new()
+            };
+            line.set_format(format);
+            (line, modbus::Framing::Rtu(silence(args.line.baud)))
+        }
+    };
+    let profile = model.ports.modbus(model.type_code());
+    let form = (framing, args.unit);
+    Ok(modbus::Plc::new(line, patience(&args.line), form, profile))
 }
 
 /// The PLC whose programming port is at the other end of a line.
@@ -61,13 +105,7 @@ pub fn at_port(end: &LineEnd, args: &LineArgs) -> Result<fx::Plc<Line>, Failure>
         parity: Parity::Even,
         ..LineFormat::new()
     };
-    if let Err(error) = line.wire.set_format(format) {
-        // A pseudo-terminal has no parity, and needs none.
-        let (name, rate) = (&line.name, args.baud);
-        eprint_line(&format!(
-            "rungc: {name} cannot be set to {rate} bit/s, 7 data bits, even parity: {error}"
-        ));
-    }
+    line.set_format(format);
     Ok(fx::Plc::connect(line, patience(args))?)
 }
 

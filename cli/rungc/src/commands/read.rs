@@ -156,8 +156,9 @@ impl Plc<'_> {
         let request = format!("{command}{address:04X}{count:02X}");
         let data = self.0.client().data(request.as_bytes(), count)?;
         data.ok_or_else(|| {
-            let why = "the PLC rejects reading its program: a keyword may protect it; \
-                       if it is yours, delete the keyword with the editor";
+            let why = "the PLC rejects reading its program: a keyword may protect it, which the \
+                       editor deletes if it is yours; a PLC that rungc simulates shows only \
+                       programs whose machine code is known";
             self.failure(why)
         })
     }

@@ -202,14 +202,8 @@ impl Requested {
         let settings = setting::settings(&args.set, &names)?;
         let mut watched = Vec::new();
         for name in setting::items("--watch", &args.watch, &names)? {
-            match names.range(name) {
-                Ok((class, first, last)) if first < last => {
-                    let devices =
-                        (first..=last).map(|n| target("--watch", &class.number(n).to_string()));
-                    watched.extend(devices.collect::<std::result::Result<Vec<_>, _>>()?);
-                }
-                _ => watched.push(target("--watch", name)?),
-            }
+            let targets = names.targets(name);
+            watched.extend(targets.map_err(|why| Failure::Because(format!("--watch: {why}")))?);
         }
         Ok(Requested {
             watched,

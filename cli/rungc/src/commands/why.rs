@@ -115,7 +115,7 @@ impl Run<'_> {
         device: Device,
     ) -> std::result::Result<Why, Failure> {
         interruption::note();
-        let mut plc = line::plc(&self.args.plc)?;
+        let mut plc = line::plc(&self.args.plc, self.module.model)?;
         let compared = match self.args.compare {
             true => Some(compare(&mut plc, &self.read.program)?),
             false => None,

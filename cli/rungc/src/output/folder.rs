@@ -1,6 +1,6 @@
 //! Folders that commands write.
 
-use super::{at, refuse_inputs};
+use super::{at, check_folder, make_folder, refuse_inputs};
 use crate::commands::{Failure, parent_dir};
 use rungc_emit::OutFile;
 use std::fs;
@@ -35,7 +35,15 @@ pub fn write_folder(folder: &Path, files: &[OutFile<Vec<u8>>], force: bool) -> R
         true => folder,
         false => parent_dir(folder),
     };
-    fs::create_dir_all(beside).map_err(|e| at(beside, e))?;
+    make_folder(beside)?;
+    for file in files.iter().filter(|_| there) {
+        let to = folder.join(&file.path);
+        check_folder(parent_dir(&to))?;
+        if to.is_dir() {
+            let why = format!("{} is a folder, where a file is to be", to.display());
+            return Err(Failure::Because(why));
+        }
+    }
     let fresh = tempfile::Builder::new()
         .prefix(".rungc-")
         .tempdir_in(beside)
@@ -54,7 +62,7 @@ pub fn write_folder(folder: &Path, files: &[OutFile<Vec<u8>>], force: bool) -> R
     }
     for file in files {
         let to = folder.join(&file.path);
-        fs::create_dir_all(parent_dir(&to)).map_err(|e| at(&to, e))?;
+        make_folder(parent_dir(&to))?;
         fs::rename(inside.join(&file.path), &to).map_err(|e| at(&to, e))?;
     }
     Ok(())

@@ -98,6 +98,47 @@ fn programs_without_sources_are_refused() {
     }
 }
 
+/// Where files are to be, there are folders, and the reverse: nothing is written.
+#[test]
+fn no_half_result_is_left() {
+    let folder = folder(&[
+        ("press.gxw", &project("sources.gxw")),
+        ("a/Main.st/x", b""),
+        ("b/labels", b"mine"),
+        ("c", b"mine"),
+    ]);
+    let path = folder.path();
+    for (out, why) in [
+        ("a", "Main.st is a folder"),
+        ("b", "labels is not a folder"),
+        ("c", "c is not a folder"),
+        ("c/d", "c is not a folder"),
+    ] {
+        let before = files(path);
+        let convert = ["convert", "press.gxw", "--to", "st", "--force", "-o", out];
+        let output = rungc(path, &convert);
+        let messages = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{out}: {messages}");
+        assert!(messages.contains(why), "{out}: {messages}");
+        assert_eq!(files(path), before);
+    }
+    let demo = text(&rungc(path, &["demo", "c"]).stderr);
+    assert!(demo.contains("c is not a folder"), "{demo}");
+    let compiled = rungc(
+        path,
+        &[
+            "convert",
+            "press.gxw",
+            "--to",
+            "st",
+            "--compiled",
+            "-o",
+            "out",
+        ],
+    );
+    assert!(text(&compiled.stderr).contains("`--compiled` reads the compiled program"));
+}
+
 #[test]
 fn a_folder_must_be_named() {
     let folder = folder(&[("press.gxw", &project("sources.gxw"))]);

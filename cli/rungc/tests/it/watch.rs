@@ -20,14 +20,17 @@ LD M8002\nOUT C0 K3\nLD M8002\nSET S20\nMOV K2 Z0\nLDP X005\nSET M1\nLD M8000\nS
 /// The station in RUN: its folder, the run, and the options that name its connections.
 fn station(model: &str) -> (tempfile::TempDir, Run, Vec<Vec<String>>) {
     let folder = folder(&[("p.il", STATION.as_bytes())]);
-    let run = Run::new(folder.path(), model, &["--fx", "--mc"], &[]);
+    let servers = ["--fx", "--mc", "--modbus-tcp"];
+    let run = Run::new(folder.path(), model, &servers, &[]);
     let port = format!("tcp:127.0.0.1:{}", run.port("programming port"));
     let mc = format!("127.0.0.1:{}", run.port("MC protocol"));
+    let modbus = format!("127.0.0.1:{}", run.port("Modbus TCP"));
     let owned = |args: &[&str]| args.iter().map(|&arg| arg.to_owned()).collect();
     let connections = vec![
         owned(&["--port", &port]),
         owned(&["--mc", &mc]),
         owned(&["--mc", &mc, "--mc-frame", "3e"]),
+        owned(&["--modbus", &modbus]),
     ];
     (folder, run, connections)
 }
@@ -180,6 +183,148 @@ fn nothing_on_the_wire_writes() {
     );
     // Batch read of words.
     assert!(sent.chunks(12).all(|request| request[0] == 0x01));
+    let (port, sent) = wire(run.port("Modbus TCP"));
+    printed(
+        folder.path(),
+        &watch,
+        &["--modbus".into(), format!("127.0.0.1:{port}")],
+    );
+    let sent = sent.lock().unwrap();
+    assert!(
+        sent.len() > 12 * 10 && sent.len().is_multiple_of(12),
+        "{}",
+        sent.len()
+    );
+    // Coils, inputs and registers.
+    assert!(sent.chunks(12).all(|request| matches!(request[7], 1..=4)));
+}
+
+/// A group, pairs, characters, and devices in a row, by each connection; rejected are those that a PLC does not show.
+#[test]
+fn each_form_of_a_value_is_shown() {
+    let list = "LD M8002\nMOV H4241 D10\nMOV K0 D11\nDEMOV E1.5 D12\nDMOV K-70000 D14\nMOV K5 K2M20\nSET Y002\n\
+                LD M8000\nOUT C235 K100\nOUT T1 K100\nEND\n";
+    let folder = folder(&[("p.il", list.as_bytes())]);
+    let servers = ["--fx", "--mc", "--modbus-tcp"];
+    let run = Run::new(folder.path(), "fx3u", &servers, &[]);
+    let ends = [
+        [
+            "--port".to_owned(),
+            format!("tcp:127.0.0.1:{}", run.port("programming port")),
+        ],
+        [
+            "--mc".to_owned(),
+            format!("127.0.0.1:{}", run.port("MC protocol")),
+        ],
+        [
+            "--modbus".to_owned(),
+            format!("127.0.0.1:{}", run.port("Modbus TCP")),
+        ],
+    ];
+    let watch = [
+        "watch",
+        "p.il",
+        "D10.str",
+        "D12.f32",
+        "D14.i32",
+        "K2M20",
+        "Y1..Y3",
+        "C235.value",
+        "T1",
+        "--once",
+        "--to",
+        "csv",
+    ];
+    let expected = "\
+D10.str,\"\"\"AB\"\"\"
+D12.f32,1.5
+D14.i32,-70000
+K2M20,5
+Y001,0
+Y002,1
+Y003,0
+C235,0
+T1 contact,";
+    for end in &ends {
+        let shown = printed(folder.path(), &watch, end);
+        let rows = shown
+            .lines()
+            .skip(1)
+            .filter_map(|row| Some(row.split_once(',')?.1));
+        let rows: Vec<&str> = rows.collect();
+        assert!(rows.join("\n").starts_with(expected), "{end:?}: {shown}");
+        assert_eq!(rows.len(), 10, "{shown}");
+    }
+    for (name, why) in [
+        ("Y000.pulses", "does not show `Y000.pulses`"),
+        ("K4Y364", "`Y400` does not exist"),
+        ("Y0..Y400", "`Y400` does not exist"),
+    ] {
+        let output = rungc(
+            folder.path(),
+            &["watch", "p.il", name, "--once", &ends[1][0], &ends[1][1]],
+        );
+        let messages = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{name}: {messages}");
+        assert!(messages.contains(why), "{name}: {messages}");
+    }
+}
+
+/// A slave on a serial line, RTU.
+#[test]
+fn a_slave_on_a_serial_line_is_read() {
+    let list = "LD M8002\nMOV H2 D8126\nMOV H81 D8120\nMOV K3 D8121\nMOV K-7 D0\nSET M3\nEND\n";
+    let folder = folder(&[("p.il", list.as_bytes())]);
+    let run = Run::new(folder.path(), "h2u", &[], &["COM1"]);
+    let watch = [
+        "watch", "p.il", "--model", "h2u", "D0", "M3", "--once", "--to", "csv",
+    ];
+    let line = ["--modbus", run.line("COM1"), "--unit", "3"].map(str::to_owned);
+    let shown = printed(folder.path(), &watch, &line);
+    assert!(
+        shown.contains(",D0,-7\n") && shown.contains(",M3,1\n"),
+        "{shown}"
+    );
+    let line = [
+        "--modbus",
+        run.line("COM1"),
+        "--retries",
+        "1",
+        "--timeout",
+        "200ms",
+    ]
+    .map(str::to_owned);
+    let args: Vec<&str> = watch
+        .iter()
+        .copied()
+        .chain(line.iter().map(String::as_str))
+        .collect();
+    let output = rungc(folder.path(), &args);
+    let messages = text(&output.stderr);
+    assert!(
+        messages.contains("no answer; check the cable") && messages.contains("asked 2 times"),
+        "{messages}"
+    );
+}
+
+#[test]
+fn errors_of_a_program_are_named() {
+    let list = "LD X000\nOUT X001\nLD X002\nOUT Y000\nEND\n";
+    let folder = folder(&[("p.il", list.as_bytes())]);
+    let server = crate::common::folder(&[("p.il", STATION.as_bytes())]);
+    let run = Run::new(server.path(), "fx3u", &["--mc"], &[]);
+    let mc = format!("127.0.0.1:{}", run.port("MC protocol"));
+    let output = rungc(
+        folder.path(),
+        &["watch", "p.il", "Y0", "--once", "--mc", &mc],
+    );
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(
+        text(&output.stderr).contains("p.il has 1 error, which `rungc check` shows"),
+        "{}",
+        text(&output.stderr)
+    );
+    assert!(text(&output.stdout).contains("Y000"));
 }
 
 #[test]
@@ -215,13 +360,26 @@ fn bad_addresses_are_errors() {
     let closed = closed.to_string();
     for (args, expected) in [
         (&["watch", "p.il"][..], "name the PLC: `--port PORT`"),
+        (&["watch", "p.il", "--modbus", &closed], "cannot open"),
+        (
+            &["watch", "p.il", "--modbus", &closed, "--port", "x"],
+            "cannot be used with",
+        ),
+        (
+            &["watch", "p.il", "--mc", &closed, "--unit", "3"],
+            "--modbus",
+        ),
+        (
+            &["watch", "p.il", "--mc", &closed, "--baud", "300"],
+            "--port",
+        ),
         (&["watch", "p.il", "--mc", &closed], "cannot open"),
         (&["watch", "p.il", "--mc", "plc"], "HOST:PORT"),
         (
             &["watch", "p.il", "--mc", "tcp:127.0.0.1:5000"],
             "HOST:PORT",
         ),
-        (&["watch", "p.il", "P0", "--mc", &closed], "has no value"),
+        (&["watch", "p.il", "P0", "--mc", &closed], "`P0`"),
         (
             &["watch", "p.il", "M99999", "--mc", &closed],
             "does not exist on",
@@ -348,13 +506,9 @@ fn a_watch_ends_as_it_should() {
     }
 }
 
-/// A simulated PLC of others, which speaks frame 3E.
-#[test]
-fn a_plc_of_others_is_read() {
-    let Some(mut server) = python("virtual_plc", "simulated_plc.py") else {
-        return;
-    };
-    let mut child = server
+/// Values that a PLC of others shows: of virtual-plc by frame 3E, of pymodbus as a slave.
+fn shown_by_another(module: &str, script: &str, connection: &[&str]) -> Option<Vec<String>> {
+    let mut child = python(module, script)?
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()
@@ -362,26 +516,56 @@ fn a_plc_of_others_is_read() {
     let mut port = String::new();
     let mut out = BufReader::new(child.stdout.take().unwrap());
     out.read_line(&mut port).unwrap();
-    let list = "LD X020\nAND M3\nOUT T4 K50\nMOV D0 D1\nOUT Y000\nEND\n";
+    let list = "LD X020\nAND M3\nOUT T4 K50\nMOV D0 D1\nOUT C200 K5\nOUT Y000\nEND\n";
     let folder = folder(&[("p.il", list.as_bytes())]);
     let address = format!("127.0.0.1:{}", port.trim());
     let watch = [
-        "watch", "p.il", "X20", "M3", "D0", "D1", "T4", "--once", "--to", "csv",
+        "watch",
+        "p.il",
+        "X20",
+        "M3",
+        "D0",
+        "D1",
+        "T4",
+        "C200.value",
+        "--once",
+        "--to",
+        "csv",
     ];
-    let shown = printed(
-        folder.path(),
-        &watch,
-        &["--mc".into(), address, "--mc-frame".into(), "3e".into()],
-    );
+    let connection = connection.iter().map(|&option| option.to_owned());
+    let connection: Vec<String> = connection.chain([address]).collect();
+    let shown = printed(folder.path(), &watch, &connection);
     let _ = child.kill();
     let _ = child.wait();
-    let values: Vec<&str> = shown
-        .lines()
-        .skip(1)
-        .filter_map(|row| Some(row.split_once(',')?.1))
-        .collect();
-    assert_eq!(
-        values,
-        ["X020,1", "M3,1", "T4 contact,0", "T4,12", "D0,7", "D1,-1"]
-    );
+    let values = shown.lines().skip(1);
+    Some(
+        values
+            .filter_map(|row| Some(row.split_once(',')?.1.to_owned()))
+            .collect(),
+    )
+}
+
+#[test]
+fn a_plc_of_others_is_read() {
+    let connection = ["--mc-frame", "3e", "--mc"];
+    if let Some(values) = shown_by_another("virtual_plc", "simulated_plc.py", &connection) {
+        let expected = ["X020,1", "M3,1", "D0,7", "D1,-1", "T4 contact,0", "T4,12"];
+        assert_eq!(values[..6], expected);
+    }
+}
+
+#[test]
+fn a_slave_of_others_is_read() {
+    if let Some(values) = shown_by_another("pymodbus", "simulated_slave.py", &["--modbus"]) {
+        let expected = [
+            "X020,1",
+            "M3,1",
+            "D0,7",
+            "D1,-1",
+            "T4 contact,1",
+            "T4,12",
+            "C200,-70000",
+        ];
+        assert_eq!(values, expected);
+    }
 }

@@ -201,6 +201,68 @@ fn a_wrong_class_ends_a_table() {
     assert_eq!(sources.unread[0].what, "the labels of `Main`");
 }
 
+/// What is not text in the structured text of a POU is named with its place.
+#[test]
+fn damaged_text_is_reported() {
+    let utf_16 = |text: &str| {
+        text.encode_utf16()
+            .flat_map(u16::to_le_bytes)
+            .collect::<Vec<u8>>()
+    };
+    for damage in [[0, 0], [1, 0], [0, 0xD8]] {
+        let mut parts = labelled();
+        let part = parts
+            .iter_mut()
+            .find(|part| part.name == "Main.Program.pou");
+        let content = &mut part.unwrap().content;
+        let line = utf_16("IF Start THEN");
+        let at = content
+            .windows(line.len())
+            .position(|own| own == line)
+            .unwrap()
+            + 6;
+        content[at..at + 2].copy_from_slice(&damage);
+        let sources = sources(&parts);
+        assert_eq!(sources.unread.len(), 1, "{damage:?}");
+        assert_eq!(
+            (sources.unread[0].what.as_str(), sources.unread[0].at),
+            ("the source of `Main`", at)
+        );
+    }
+    // Fewer characters than their number says.
+    let mut parts = labelled();
+    let mut own = parts.iter_mut();
+    let part = own.find(|part| part.name == "Main.Program.pou").unwrap();
+    let end = utf_16("END_IF");
+    let mut places = part.content.windows(end.len());
+    let at = places.position(|own| own == end).unwrap();
+    part.content[at..].fill(0);
+    assert_eq!(sources(&parts).unread[0].at, at);
+}
+
+/// Names that Windows keeps for its devices are not names of files.
+#[test]
+fn files_have_names_that_windows_takes() {
+    let mut sources = sources(&labelled());
+    for (pou, name) in sources
+        .pous
+        .iter_mut()
+        .zip(["con", "LPT1", "NUL.x", "console"])
+    {
+        name.clone_into(&mut pou.name);
+    }
+    let files = sources.to_st();
+    let paths: Vec<_> = files.iter().map(|file| file.path.as_str()).collect();
+    for path in [
+        "con_.txt",
+        "LPT1_.st",
+        "NUL_x.txt",
+        "libraries/Maths/console.st",
+    ] {
+        assert!(paths.contains(&path), "{paths:?}");
+    }
+}
+
 /// All projects beside this repository.
 fn published() -> Vec<PathBuf> {
     let root = Path::new(env!("RUNGC_ROOT")).join("../shared");

@@ -56,7 +56,7 @@ pub use modbus::{Remote, Wire};
 pub use no_serial::SerialPort;
 pub use overlap::{Overlap, overlap};
 pub use ports::cannot_open;
-pub use rtu::{Rtu, SerialLine};
+pub use rtu::{Rtu, SerialLine, silence};
 pub use settings::{Connection, End, Kind, Loss, Place, Row, SettingError, Table};
 #[cfg(target_os = "linux")]
 pub use sys::SerialPort;

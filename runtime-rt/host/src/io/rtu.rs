@@ -48,22 +48,25 @@ pub struct Rtu<L> {
     silence: Duration,
 }
 
+/// Time for which a line is silent before a request, at a bit rate other than 0: three and a half characters.
+pub fn silence(baud: u32) -> Duration {
+    if baud > FAST {
+        LEAST_SILENCE
+    } else {
+        Duration::from_secs(1) * CHARACTER * 7 / 2 / baud
+    }
+}
+
 impl<L: SerialLine + 'static> Rtu<L> {
     /// The slave of a connection at the end of a line.
     ///
     /// # Errors
     /// A unit or a rate that does not exist.
     pub fn driver(line: L, connection: &Connection) -> Result<Box<dyn Driver>, String> {
-        let baud = connection.baud()?;
-        let characters = Duration::from_secs(1) * CHARACTER * 7 / 2 / baud;
         let rtu = Rtu {
             line,
             timeout: Duration::from_millis(connection.timeout_ms),
-            silence: if baud > FAST {
-                LEAST_SILENCE
-            } else {
-                characters
-            },
+            silence: silence(connection.baud()?),
         };
         Ok(Box::new(Remote::new(rtu, connection)?))
     }

@@ -5,5 +5,5 @@ pub mod plot;
 mod reading;
 mod vcd;
 
-pub use reading::{Reading, Seen, TEXT_LENGTH, hertz};
+pub use reading::{Reading, Seen, TEXT_LENGTH, Values, hertz};
 pub use vcd::{Signal, Vcd};

@@ -47,6 +47,46 @@ pub enum Reading {
     Text(String),
 }
 
+/// Values of the devices of a PLC.
+pub trait Values {
+    /// A bit; of a timer or counter its contact. `None` if there is no such bit, as for all of these.
+    fn bit(&self, class: DeviceClass, number: u32) -> Option<bool>;
+
+    /// A word; of a timer or counter its current value.
+    fn word(&self, class: DeviceClass, number: u32) -> Option<i16>;
+
+    /// The current value of a counter that has 32 bits.
+    fn counter32(&self, number: u32) -> Option<i32>;
+
+    /// A pair of words, the low one first.
+    fn pair(&self, class: DeviceClass, number: u32) -> Option<i32> {
+        let low = self.word(class, number)? as u16;
+        let high = self.word(class, number.checked_add(1)?)?;
+        Some(i32::from(high) << 16 | i32::from(low))
+    }
+}
+
+/// A PLC as test files see it: an output is its terminal, at which pulses show and which M8034 switches off.
+struct Outside<'a>(&'a Machine<'a>);
+
+impl Values for Outside<'_> {
+    fn bit(&self, class: DeviceClass, number: u32) -> Option<bool> {
+        let on = self.0.bit(rt_class(class)?, number)?;
+        Some(match class {
+            DeviceClass::Y => self.0.output(number),
+            _ => on,
+        })
+    }
+
+    fn word(&self, class: DeviceClass, number: u32) -> Option<i16> {
+        self.0.word(rt_class(class)?, number)
+    }
+
+    fn counter32(&self, number: u32) -> Option<i32> {
+        self.0.counter32(number)
+    }
+}
+
 impl Reading {
     /// Value of the target; `None` if the model or its hardware has no such device.
     pub fn of(seen: Seen, target: Target) -> Option<Reading> {
@@ -55,33 +95,6 @@ impl Reading {
             Target::Channel(channel) => {
                 let signal = hal.signal(channel.unit, channel.number, channel.quantity)?;
                 Reading::Float(f64::from(signal) / 1e6)
-            }
-            Target::Bit(class, n) => Reading::Bit(bit(machine, class, n)?),
-            Target::Current(class, n) if is_counter32(class, n) => {
-                Reading::Integer(machine.counter32(n)?.into(), 32)
-            }
-            Target::Word(class, n) | Target::Current(class, n) => {
-                Reading::Integer(machine.word(rt_class(class)?, n)?.into(), 16)
-            }
-            Target::Pair(class, n) => {
-                Reading::Integer(pair(machine, rt_class(class)?, n)?.into(), 32)
-            }
-            Target::Float(class, n) => {
-                let bits = pair(machine, rt_class(class)?, n)? as u32;
-                Reading::Float(f32::from_bits(bits).into())
-            }
-            Target::Nibbles(digits, class, n) => {
-                let width = 4 * u32::from(digits);
-                let bit = |i| Some(i64::from(bit(machine, class, n.checked_add(i)?)?) << i);
-                Reading::Integer((0..width).map(bit).sum::<Option<i64>>()?, width)
-            }
-            Target::Text(class, n) => {
-                let class = rt_class(class)?;
-                machine.word(class, n)?;
-                let words = (n..).map_while(|n| machine.word(class, n));
-                let bytes = words.take(TEXT_LENGTH / 2).flat_map(i16::to_le_bytes);
-                let bytes: Vec<u8> = bytes.take_while(|&byte| byte != 0).collect();
-                Reading::Text(String::from_utf8_lossy(&bytes).into_owned())
             }
             Target::Pulses(n) => {
                 machine.bit(Class::Y, n)?;
@@ -92,6 +105,38 @@ impl Reading {
                 machine.bit(Class::Y, n)?;
                 Reading::Float(hertz(machine, n).abs())
             }
+            _ => return Reading::of_values(&Outside(machine), target),
+        })
+    }
+
+    /// Value of the target among these; `None` if it is not, as pulses and signals of modules never are.
+    pub fn of_values(values: &impl Values, target: Target) -> Option<Reading> {
+        Some(match target {
+            Target::Bit(class, n) => Reading::Bit(values.bit(class, n)?),
+            Target::Current(class, n) if is_counter32(class, n) => {
+                Reading::Integer(values.counter32(n)?.into(), 32)
+            }
+            Target::Word(class, n) | Target::Current(class, n) => {
+                Reading::Integer(values.word(class, n)?.into(), 16)
+            }
+            Target::Pair(class, n) => Reading::Integer(values.pair(class, n)?.into(), 32),
+            Target::Float(class, n) => {
+                let bits = values.pair(class, n)? as u32;
+                Reading::Float(f32::from_bits(bits).into())
+            }
+            Target::Nibbles(digits, class, n) => {
+                let width = 4 * u32::from(digits);
+                let bit = |i| Some(i64::from(values.bit(class, n.checked_add(i)?)?) << i);
+                Reading::Integer((0..width).map(bit).sum::<Option<i64>>()?, width)
+            }
+            Target::Text(class, n) => {
+                values.word(class, n)?;
+                let words = (n..).map_while(|n| values.word(class, n));
+                let bytes = words.take(TEXT_LENGTH / 2).flat_map(i16::to_le_bytes);
+                let bytes: Vec<u8> = bytes.take_while(|&byte| byte != 0).collect();
+                Reading::Text(String::from_utf8_lossy(&bytes).into_owned())
+            }
+            Target::Pulses(_) | Target::Frequency(_) | Target::Channel(_) => return None,
         })
     }
 }
@@ -107,21 +152,6 @@ pub fn hertz(machine: &Machine, output: u32) -> f64 {
     } else {
         hertz
     }
-}
-
-/// A bit. An output is its terminal, as in test files: pulses show there, and M8034 switches it off.
-fn bit(machine: &Machine, class: DeviceClass, number: u32) -> Option<bool> {
-    let on = machine.bit(rt_class(class)?, number)?;
-    Some(match class {
-        DeviceClass::Y => machine.output(number),
-        _ => on,
-    })
-}
-
-fn pair(machine: &Machine, class: Class, number: u32) -> Option<i32> {
-    let low = machine.word(class, number)? as u16;
-    let high = machine.word(class, number.checked_add(1)?)?;
-    Some(i32::from(high) << 16 | i32::from(low))
 }
 
 impl fmt::Display for Reading {

@@ -187,7 +187,10 @@ impl Gathering<'_> {
                 let (lines, damaged) = ladder::lines(content, self.encoding);
                 (Body::Ladder(lines), damaged.map(|at| pou.start + at))
             }
-            Language::StructuredText => (Body::Text(pou::text(content)), None),
+            Language::StructuredText => {
+                let (text, damaged) = pou::text(content);
+                (Body::Text(text), damaged.map(|at| pou.start + at))
+            }
             Language::Picture => {
                 let mut fields = Fields::new(&part.bytes[..pou.end]);
                 let _ = fields.take(pou.start);

@@ -119,16 +119,31 @@ impl Head {
 /// The head that the editor puts into a box of structured text in a ladder: the block returns while EN is off.
 const INLINE_END: &str = "IST HEADER END";
 
-/// Structured text from its UTF-16, with line feeds, without the generated head of a box in a ladder.
-pub(super) fn text(content: &[u8]) -> String {
+/// Structured text with line feeds, without the generated head of a box in a ladder; and the first byte of what is not
+/// text, if there is such. The content is a number of units of UTF-16, the last of which is 0, and the units.
+pub(super) fn text(content: &[u8]) -> (String, Option<usize>) {
+    const COUNT: usize = 4;
+    let Some((&count, content)) = content.split_first_chunk::<COUNT>() else {
+        return (String::new(), Some(0));
+    };
+    let units = (u32::from_le_bytes(count) as usize).saturating_sub(1);
+    let end = units.saturating_mul(2);
+    let cut = (end > content.len()).then_some(content.len());
+    let content = content.get(..end).unwrap_or(content);
     let (text, _) = encoding_rs::UTF_16LE.decode_without_bom_handling(content);
-    let text = text.trim_end_matches('\0').replace("\r\n", "\n");
-    match text.find(INLINE_END) {
+    let is_damaged =
+        |c: char| c == char::REPLACEMENT_CHARACTER || c.is_control() && !"\t\r\n".contains(c);
+    let damaged = text.find(is_damaged);
+    let damaged = damaged.map(|at| 2 * text[..at].encode_utf16().count());
+    let damaged = damaged.or(cut).map(|at| COUNT + at);
+    let text = text.replace("\r\n", "\n");
+    let text = match text.find(INLINE_END) {
         Some(at) => {
             let rest = &text[at..];
             let rest = rest.split_once('\n').map_or("", |(_, rest)| rest);
             rest.to_owned()
         }
         None => text,
-    }
+    };
+    (text, damaged)
 }

@@ -58,8 +58,19 @@ fn plain(name: &str) -> String {
     };
     match name.trim() {
         "" => "_".to_owned(),
+        name if is_device(name) => format!("{name}_"),
         name => name.chars().map(plain).collect(),
     }
+}
+
+/// True for names that Windows keeps for its devices, whatever their ending.
+fn is_device(name: &str) -> bool {
+    let name = name.to_ascii_uppercase();
+    let is_port = |name: &str| {
+        let number = name.strip_prefix("COM").or(name.strip_prefix("LPT"));
+        matches!(number.map(str::as_bytes), Some([b'0'..=b'9']))
+    };
+    matches!(name.as_str(), "CON" | "PRN" | "AUX" | "NUL") || is_port(&name)
 }
 
 impl Sources {
