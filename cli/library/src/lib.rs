@@ -47,6 +47,7 @@ mod plc;
 mod program;
 mod project;
 pub mod settings;
+pub mod trace;
 pub mod unproven;
 pub mod why;
 

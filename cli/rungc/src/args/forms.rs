@@ -73,14 +73,14 @@ pub struct LineArgs {
 pub struct PlcArgs {
     /// Read the PLC whose programming port is at this serial port (`/dev/ttyUSB0`, `COM3`) or at a serial device server
     /// (`tcp:HOST:PORT`).
-    #[arg(long, value_parser = serial_end, value_name = "PORT", conflicts_with = "mc", group = "line")]
+    #[arg(long, value_parser = serial_end, value_name = "PORT", groups = ["line", "plc"])]
     pub port: Option<LineEnd>,
     /// Read a PLC that speaks the MC protocol over TCP, in binary, such as an FX3U with an Ethernet module.
-    #[arg(long, value_parser = host, value_name = "HOST:PORT", conflicts_with = "modbus")]
+    #[arg(long, value_parser = host, value_name = "HOST:PORT", group = "plc")]
     pub mc: Option<LineEnd>,
     /// Read a PLC that is a Modbus slave: by Modbus TCP at `HOST:PORT`, by RTU at a serial port (`/dev/ttyUSB0`,
     /// `COM3`) or at a serial device server (`tcp:HOST:PORT`).
-    #[arg(long, value_parser = modbus_end, value_name = "ADDRESS", group = "line")]
+    #[arg(long, value_parser = modbus_end, value_name = "ADDRESS", groups = ["line", "plc"])]
     pub modbus: Option<ModbusEnd>,
     /// Number of the Modbus slave.
     #[arg(long, requires = "modbus", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=247), value_name = "N")]

@@ -10,13 +10,17 @@ Examples:
   rungc watch press.il --port /dev/ttyUSB0              the inputs and outputs of the program
   rungc watch press.il X000 D10 \"press valve\" --port COM3
   rungc watch press.il --port COM3 --once --compare     all at once, and whether the PLC has this program
-  rungc watch press.il --port COM3 --to csv > machine.csv")]
+  rungc watch press.il --port COM3 --all --to csv > machine.csv
+                                                        a recording, for `rungc why --trace`")]
 pub struct WatchArgs {
     #[command(flatten)]
     pub input: Input,
     /// Devices to show: `X000`, `T0`, `D10`, or a comment. Default: the inputs and outputs that the program names.
     #[arg(value_name = "DEVICE")]
     pub devices: Vec<String>,
+    /// Show all devices that the program names, and whether the PLC is in RUN (M8000).
+    #[arg(long, conflicts_with = "devices")]
+    pub all: bool,
     #[command(flatten)]
     pub plc: PlcArgs,
     /// Time between the beginnings of two looks; a slow line takes longer.
@@ -29,7 +33,7 @@ pub struct WatchArgs {
     #[arg(long, conflicts_with = "duration")]
     pub once: bool,
     /// Compare the program in the PLC with the file first, which takes as long as `rungc read`.
-    #[arg(long, requires = "port", conflicts_with = "mc")]
+    #[arg(long, requires = "port")]
     pub compare: bool,
     /// Output format.
     #[arg(long, value_enum, default_value_t = WatchTo::Text)]

@@ -13,6 +13,7 @@ Examples:
   rungc why press.il \"press valve\" --for 1s             a device by its comment
   rungc why press.il Y000 --how                         what a person can do so that it changes
   rungc why press.il Y000 --port /dev/ttyUSB0           why it is on or off in the PLC itself
+  rungc why press.il Y000 --trace monday.csv --at 35s   why it was on or off in a recording of the PLC
   rungc why press.il Y000 --for 1s --format json        the answer as an object")]
 pub struct WhyArgs {
     #[command(flatten)]
@@ -22,23 +23,29 @@ pub struct WhyArgs {
     pub device: Option<String>,
     /// Explain the moment after this virtual time: `200ms`, `5s`, `2min`; a bare number is milliseconds. Default: 1s if
     /// a device is set, there is a machine, or `--how` asks; else the program alone is explained.
-    #[arg(long = "for", conflicts_with_all = ["port", "mc"], value_parser = crate::time::parse, value_name = "TIME")]
+    #[arg(long = "for", conflicts_with = "plc", value_parser = crate::time::parse, value_name = "TIME")]
     pub duration: Option<u64>,
     /// Scan time, in virtual time; a longer constant scan time of the program takes precedence. Default: the program's
     /// constant scan time, or 10ms.
     #[arg(long, value_parser = crate::time::parse, value_name = "TIME")]
     pub scan: Option<u64>,
     /// Set a device at a time, as for `rungc run`: `X000=1@200ms`; may be repeated or separated by commas.
-    #[arg(long, conflicts_with_all = ["port", "mc"], value_name = "DEVICE=VALUE[@TIME]")]
+    #[arg(long, conflicts_with = "plc", value_name = "DEVICE=VALUE[@TIME]")]
     pub set: Vec<String>,
     /// Simulated machine, whose axes, cylinders and delays follow the outputs and drive inputs (`rungc book machines`).
-    #[arg(long, conflicts_with_all = ["port", "mc"], value_name = "FILE")]
+    #[arg(long, conflicts_with = "plc", value_name = "FILE")]
     pub machine: Option<PathBuf>,
     /// Compare the program in the PLC with the file first, which takes as long as `rungc read`.
-    #[arg(long, requires = "port", conflicts_with = "mc")]
+    #[arg(long, requires = "port")]
     pub compare: bool,
     #[command(flatten)]
     pub plc: PlcArgs,
+    /// Explain a moment of this recording, which `rungc watch --all --to csv` prints.
+    #[arg(long, group = "plc", value_name = "FILE")]
+    pub trace: Option<PathBuf>,
+    /// Time of the moment in the recording. Default: its end.
+    #[arg(long, requires = "trace", value_parser = crate::time::parse, value_name = "TIME")]
+    pub at: Option<u64>,
     /// Search for what a person can do from that moment on so that the device changes.
     #[arg(long)]
     pub how: bool,

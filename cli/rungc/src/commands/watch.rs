@@ -11,6 +11,7 @@ use crate::args::{WatchArgs, WatchTo};
 use crate::report::Reporter;
 use rungc::Names;
 use rungc::monitor::{device_of, items, items_of_target, reading};
+use rungc::trace::CONTACT;
 use rungc_frontend::Read;
 use rungc_lower::compile;
 use rungc_models::Model;
@@ -51,7 +52,10 @@ fn watch(
     }
     let program = &read.program;
     let model = compile::model(program, &subject.options());
-    let shown = shown(&devices, program, model)?;
+    let shown = match args.all {
+        true => all(program, model),
+        false => shown(&devices, program, model)?,
+    };
     report_errors(subject, &read);
     interruption::note();
     let mut plc = line::plc(&args.plc, model)?;
@@ -80,6 +84,21 @@ fn report_errors(subject: &Subject, read: &Read) {
             "rungc: {file} has {errors}, which `rungc check` shows; its devices are watched as they are written"
         ));
     }
+}
+
+/// All devices that a program names: of timers and counters the contact and the value.
+fn all(program: &Program, model: &'static Model) -> Vec<Target> {
+    let targets = items(program, model).into_iter().map(|item| {
+        let Device { class, number } = device_of(item);
+        match item {
+            Item::Bit(..) => Target::Bit(class, number),
+            Item::Word(..) if matches!(class, DeviceClass::T | DeviceClass::C) => {
+                Target::Current(class, number)
+            }
+            Item::Word(..) => Target::Word(class, number),
+        }
+    });
+    targets.collect()
 }
 
 /// The devices that are named, or the inputs and outputs of a program, in their order.
@@ -267,7 +286,7 @@ fn device(target: Target) -> String {
 /// Name of a value: of a timer or counter its contact and its value are apart.
 fn name(target: Target) -> String {
     match target {
-        Target::Bit(DeviceClass::T | DeviceClass::C, _) => format!("{target} contact"),
+        Target::Bit(DeviceClass::T | DeviceClass::C, _) => format!("{target}{CONTACT}"),
         target => device(target),
     }
 }

@@ -12,17 +12,20 @@ use crate::args::{Format, WhyArgs};
 use crate::report::{Reporter, to_json};
 use rungc::monitor::{device_of, items_of};
 use rungc::settings::is_written_outside;
+use rungc::trace::Trace;
 use rungc::{Names, Why};
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
-use rungc_monitor::Sample;
+use rungc_monitor::{Item, Sample};
 use rungc_sim::Session;
 use rungc_sim::plant::Description;
 use rungc_sim::session::hardware;
 use rungc_syntax::Device;
 use rungc_why::{Explainer, History, HowOptions};
 use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
 
 /// Explains why a device is on or off.
 pub fn run(args: &WhyArgs, cx: Context) -> Result {
@@ -74,10 +77,11 @@ fn explain(
         settings: &settings,
         machine: machine.as_ref(),
     };
-    let why = match args.end_ms() {
+    let why = match (&args.trace, args.end_ms()) {
         _ if args.plc.names_plc() => run.explain_plc(&explainer, device)?,
-        Some(end_ms) => run.explain(&explainer, device, end_ms)?,
-        None => explainer.of_program(device),
+        (Some(trace), _) => run.explain_trace(&explainer, device, trace)?,
+        (None, Some(end_ms)) => run.explain(&explainer, device, end_ms)?,
+        (None, None) => explainer.of_program(device),
     };
     print(&why, subject.reporting.format)?;
     Ok(Outcome::Success)
@@ -125,19 +129,63 @@ impl Run<'_> {
         let (program, model) = (&self.read.program, self.module.model);
         let indexed = rungc::monitor::indexed_items(program, model, &sample);
         sample.extend(plc.read(indexed)?);
-        let own = items_of(device, model);
-        if own.iter().any(|item| sample.hidden.contains(item)) {
-            let why = format!("the PLC does not show `{device}`");
-            return Err(Failure::Because(why));
+        let mut why = self.explain_sample(explainer, device, &sample, "the PLC does not show")?;
+        why.notes.extend(compared);
+        why.notes
+            .extend(hidden(&sample, "not shown by the port of the PLC"));
+        Ok(why)
+    }
+
+    /// Explains a moment of a recording.
+    fn explain_trace(
+        &self,
+        explainer: &Explainer,
+        device: Device,
+        path: &Path,
+    ) -> std::result::Result<Why, Failure> {
+        let model = self.module.model;
+        let refuse = |why: &str| Failure::Because(format!("{}: {why}", path.display()));
+        let bytes = fs::read(path).map_err(|error| refuse(&error.to_string()))?;
+        let trace = Trace::read(&bytes, model).map_err(|why| refuse(&why))?;
+        let (first_ms, last_ms) = trace.times();
+        let ms = self.args.at.unwrap_or(last_ms);
+        if !(first_ms..=last_ms).contains(&ms) {
+            let why = format!("the recording is from {first_ms} to {last_ms} ms");
+            return Err(refuse(&why));
+        }
+        let mut sample = trace.at(ms);
+        let named = rungc::monitor::items(&self.read.program, model);
+        let missing = named
+            .into_iter()
+            .filter(|item| !sample.values.contains_key(item));
+        let missing: Vec<Item> = missing.collect();
+        sample.hidden.extend(missing);
+        let mut why = self.explain_sample(explainer, device, &sample, "the recording has no")?;
+        if let Some(moment) = &mut why.moment {
+            moment.ms = Some(ms);
+        }
+        why.notes.extend(hidden(&sample, "not in the recording"));
+        Ok(why)
+    }
+
+    /// Explains the moment at which devices have these values. `lacks` begins the message for a device without one.
+    fn explain_sample(
+        &self,
+        explainer: &Explainer,
+        device: Device,
+        sample: &Sample,
+        lacks: &str,
+    ) -> std::result::Result<Why, Failure> {
+        let own = items_of(device, self.module.model);
+        if !own.iter().all(|item| sample.values.contains_key(item)) {
+            return Err(Failure::Because(format!("{lacks} `{device}`")));
         }
         let mut session = self.session();
-        rungc::monitor::take_over(&mut session, &sample);
+        rungc::monitor::take_over(&mut session, sample);
         let mut why = explainer.at_moment(&mut session, self.args.scan, device, None);
         if let Some(moment) = &mut why.moment {
             moment.ms = None;
         }
-        why.notes
-            .extend(compared.into_iter().chain(hidden(&sample)));
         self.add_how(&mut why, explainer, &mut session, device);
         Ok(why)
     }
@@ -192,8 +240,8 @@ impl Run<'_> {
     }
 }
 
-/// What the port of a PLC does not show, of all that the program names.
-fn hidden(sample: &Sample) -> Option<String> {
+/// What a sample lacks, of all that the program names.
+fn hidden(sample: &Sample, lacks: &str) -> Option<String> {
     let devices: BTreeSet<Device> = sample.hidden.iter().map(|&item| device_of(item)).collect();
     let named: Vec<String> = devices.iter().take(8).map(Device::to_string).collect();
     let more = if devices.len() > named.len() {
@@ -202,8 +250,7 @@ fn hidden(sample: &Sample) -> Option<String> {
         ""
     };
     let named = named.join(", ");
-    (!devices.is_empty())
-        .then(|| format!("not shown by the port of the PLC, and taken for off or 0: {named}{more}"))
+    (!devices.is_empty()).then(|| format!("{lacks}, and taken for off or 0: {named}{more}"))
 }
 
 /// Makes the settings whose time has come.

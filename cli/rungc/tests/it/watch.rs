@@ -117,6 +117,76 @@ fn the_reason_is_that_of_the_plc() {
     assert!(other.contains("another one, from step"), "{other}");
 }
 
+/// A recording of all devices is a moment to take away.
+#[test]
+fn a_recording_answers_as_the_plc_does() {
+    let (folder, _run, connections) = station("fx3u");
+    let watch = [
+        "watch", "p.il", "--model", "fx3u", "--all", "--once", "--to", "csv",
+    ];
+    let recording = printed(folder.path(), &watch, &connections[0]);
+    let path = folder.path().join("moment.csv");
+    std::fs::write(&path, &recording).unwrap();
+    for device in ["motor", "M100", "T0", "C0"] {
+        let why = ["why", "p.il", device, "--model", "fx3u"];
+        let there = printed(folder.path(), &why, &connections[0]);
+        let trace = ["--trace".to_owned(), "moment.csv".to_owned()];
+        let here = printed(folder.path(), &why, &trace);
+        assert_eq!(
+            here,
+            there.replacen(" in the PLC", " at 0 ms", 1),
+            "{device}"
+        );
+    }
+    // The guard is closed and the start pressed, later on.
+    let later = format!("{recording}3000,X000,1\n3000,X002,1\n3010,M0,1\n");
+    std::fs::write(&path, later).unwrap();
+    let why = [
+        "why",
+        "p.il",
+        "automatic",
+        "--model",
+        "fx3u",
+        "--trace",
+        "moment.csv",
+    ];
+    let shown = |more: &[&str]| printed(folder.path(), &[&why[..], more].concat(), &[]);
+    assert!(
+        shown(&[]).starts_with("M0 \"automatic\" is on at 3010 ms"),
+        "{}",
+        shown(&[])
+    );
+    assert!(
+        shown(&["--at", "1s"]).starts_with("M0 \"automatic\" is off at 1000 ms"),
+        "{}",
+        shown(&["--at", "1s"])
+    );
+    for (trace, more, expected) in [
+        (
+            recording.as_str(),
+            &["--at", "9s"][..],
+            "the recording is from 0 to 0 ms",
+        ),
+        (
+            "ms,device,value\n0,X000,1\n",
+            &[],
+            "the recording has no `M0`",
+        ),
+        ("LD X000\n", &[], "line 1: a trace has the columns"),
+        (
+            "ms,device,value\n0,X000,7\n",
+            &[],
+            "line 2: `7` is not a value",
+        ),
+    ] {
+        std::fs::write(&path, trace).unwrap();
+        let output = rungc(folder.path(), &[&why[..], more].concat());
+        let messages = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{messages}");
+        assert!(messages.contains(expected), "{messages}");
+    }
+}
+
 /// Passes a connection on, and notes what the client sends.
 fn wire(to: u16) -> (u16, Arc<Mutex<Vec<u8>>>) {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
