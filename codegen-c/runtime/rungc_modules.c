@@ -3,7 +3,8 @@
  */
 #include "rungc_operands.h"
 
-enum { M_LATE = 8299, D_TIME_OUT = 8299, M_TRANSFER_COUNT = 8164, D_TRANSFER_COUNT = 8164, D_ANALOG_OUTPUTS = 8050 };
+enum { M_LATE = 8299, D_TIME_OUT = 8299, M_TRANSFER_COUNT = 8164, D_TRANSFER_COUNT = 8164 };
+enum { D_ANALOG_INPUTS = 8030, D_ANALOG_OUTPUTS = 8050 };
 
 /* The largest number of words, of a module, and of an address. */
 enum { MOST = 32767 };
@@ -217,8 +218,8 @@ void rungc_to_remote(rungc_map *map, rungc_site site, rungc_operand m1, rungc_op
 
 /* ---- FROM and TO of L01S: where there is no module 0, that number means the host -------------------------------------------------- */
 
-/* Number of its analog outputs. */
-enum { ANALOG_OUTPUTS = 8 };
+/* Number of its analog inputs, and of its outputs. */
+enum { ANALOG_CHANNELS = 8 };
 
 /* Returns true if the operands name a word of the host. */
 static bool of_host(const rungc_call *call, const transfer *words)
@@ -242,13 +243,17 @@ static rungc_fault from_or_host(const rungc_call *call, const rungc_operand oper
     if (fault == RUNGC_OK) {
         fault = rungc_check_words(call, operands[2], words.count);
     }
+    if ((fault == RUNGC_OK) && ((words.address + words.count) > ANALOG_CHANNELS)) {
+        fault = RUNGC_NO_MODULE;
+    }
     for (int32_t i = 0; (i < words.count) && (fault == RUNGC_OK); i++) {
         int16_t value = 0;
 
-        fault = rungc_read_analog(call, words.address + i, &value);
-        if (fault == RUNGC_OK) {
-            fault = rungc_write_word(call, operands[2], i, value);
+        /* One that is not wired is as its register shows it. */
+        if (rungc_read_analog(call, words.address + i, &value) != RUNGC_OK) {
+            value = rungc_register(call->map, (uint32_t)(D_ANALOG_INPUTS + words.address + i));
         }
+        fault = rungc_write_word(call, operands[2], i, value);
     }
     return fault;
 }
@@ -268,7 +273,7 @@ static rungc_fault to_or_host(const rungc_call *call, const rungc_operand operan
     if (fault == RUNGC_OK) {
         fault = rungc_check_words(call, operands[2], words.count);
     }
-    if ((fault == RUNGC_OK) && ((words.address + words.count) > ANALOG_OUTPUTS)) {
+    if ((fault == RUNGC_OK) && ((words.address + words.count) > ANALOG_CHANNELS)) {
         fault = RUNGC_NO_MODULE;
     }
     for (int32_t i = 0; (i < words.count) && (fault == RUNGC_OK); i++) {

@@ -209,7 +209,7 @@ pub fn permit(path: &Path, kind: Kind, force: bool) -> Result<(), Failure> {
             let what = "already exists and is not a regular file";
             Err(Failure::Because(format!("{} {what}", path.display())))
         }
-        Ok(_) if force || kind.replaces(path) => Ok(()),
+        Ok(_) if force || kind.replaces(path) => writable(path),
         Ok(_) => Err(Failure::Because(format!(
             "{} already exists{}; use --force to overwrite",
             path.display(),
@@ -218,6 +218,12 @@ pub fn permit(path: &Path, kind: Kind, force: bool) -> Result<(), Failure> {
         // A broken link, or nothing at all.
         Err(_) => Ok(()),
     }
+}
+
+/// Rejects a file that this user may not write, although its folder would let another one take its place.
+fn writable(path: &Path) -> Result<(), Failure> {
+    let opened = File::options().write(true).open(path);
+    opened.map(drop).map_err(|error| at(path, error))
 }
 
 /// Returns true for the names of a process's open files, such as `/dev/stdout`. Replaced as files are, they would no
@@ -316,6 +322,7 @@ fn write_whole(path: &Path, contents: &[u8], force: bool, mode: u32) -> Result<(
 /// Changes a file that the user has named to be changed: a list that is formatted, settings that get a table, an
 /// accepted trace. The new contents appear whole or not at all.
 pub fn rewrite(path: &Path, contents: &[u8]) -> Result<(), Failure> {
+    writable(path)?;
     let file = making(path, 0o666)?;
     let written = file.as_file().write_all(contents);
     let persisted = written.and_then(|()| file.persist(path).map_err(|error| error.error));

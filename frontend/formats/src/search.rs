@@ -1,7 +1,7 @@
 //! Finding the programs in a folder.
 
 use crate::{GX_DEVELOPER, csv, encoding, find, image, main_file, plcopen};
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use walkdir::{DirEntry, WalkDir};
@@ -24,7 +24,7 @@ fn is_of_gx_developer(folder: &Path) -> bool {
 /// All programs in a folder and, to this depth (1: in itself), below, in the order of their paths: instruction lists
 /// (`.il`), list exports (`.csv`), GX Developer projects (their folders), GX Works2 projects (`.gxw`), FXGP/WIN
 /// programs (`.pmw`), images of program memory (`.bin`) and PLCopen XML (`.xml`). Hidden folders, folders called
-/// `target` and links to folders are left out.
+/// `target`, links to folders and what is not a file, such as a pipe, are left out.
 pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let entries = WalkDir::new(folder).max_depth(depth).sort_by_file_name();
@@ -39,6 +39,10 @@ pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
                 found.push(path.to_owned());
                 entries.skip_current_dir();
             }
+            continue;
+        }
+        // A link to nothing is reported where it is read.
+        if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
             continue;
         }
         let ending = path.extension().unwrap_or_default();

@@ -7,15 +7,20 @@ use rungc_models::interrupts::{Capture, Source};
 use rungc_rt::{CmpOp, EdgeKind};
 
 impl Lowerer<'_> {
-    /// Finds the registers of edges that the program names, and that its interrupts depend on.
+    /// Finds the registers of edges that the program's interrupts depend on. At 0, as at power-on, the first input
+    /// interrupts and the second one does not: for the first one alone, a register that is not named has no effect.
     pub(super) fn find_captures(&mut self, requests: &[Request]) {
         for capture in self.model.interrupts.captures {
             let captured = |request: &Request| match request.source {
                 Some(Source::Input { number, .. }) => capture.inputs.contains(&number),
                 _ => false,
             };
-            let named = self.names(capture.register);
-            if named && requests.iter().any(captured) {
+            let second = |request: &Request| {
+                let [_, second] = capture.inputs;
+                matches!(request.source, Some(Source::Input { number, .. }) if number == second)
+            };
+            let matters = self.names(capture.register) || requests.iter().any(second);
+            if matters && requests.iter().any(captured) {
                 let name = format!("x{:03o}_edges", capture.inputs[0]);
                 let cell = self.cell(name, "which edges interrupt");
                 self.interrupts.captures.push((capture, cell));

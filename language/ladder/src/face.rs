@@ -187,19 +187,22 @@ pub(crate) fn device_of(kind: &OperandKind) -> Option<Device> {
 /// A text as at most `lines` lines of `width`; the last ends in `…` if there is more.
 pub(crate) fn fold(text: &str, width: usize, lines: usize) -> Vec<String> {
     let mut folded: Vec<String> = vec![String::new()];
-    for word in text.split_whitespace() {
+    'words: for word in text.split_whitespace() {
+        let rest = UnicodeWidthStr::width(word).min(width);
         for (i, character) in word
             .chars()
             .filter(|character| !character.is_control())
             .enumerate()
         {
+            if folded.len() > lines {
+                break 'words;
+            }
             let line = folded.last_mut().expect("there is a line");
-            let rest = UnicodeWidthStr::width(word);
             let space = usize::from(i == 0 && !line.is_empty());
             let fits = line.width()
                 + space
                 + if i == 0 {
-                    rest.min(width)
+                    rest
                 } else {
                     character.width().unwrap_or(0)
                 }

@@ -33,6 +33,8 @@ pub struct HighSpeed {
     pub patterns: TableMode,
     /// Input axes.
     pub axes: &'static [Axis],
+    /// A counter may count at the input of SPD (h1u-h2u-programming §4.3.6).
+    pub spd_takes_counters: bool,
     /// The relay of input X000, after which the others' follow, that makes SPD show pulses a minute.
     pub per_minute: Option<Relay>,
     /// Meters of pulses.
@@ -208,6 +210,7 @@ pub(crate) const FX: HighSpeed = HighSpeed {
     crossing_zones: None,
     patterns: PATTERNS,
     axes: &[],
+    spd_takes_counters: false,
     per_minute: None,
     meters: &[],
     edge_counts: &[],

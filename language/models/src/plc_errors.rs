@@ -110,9 +110,10 @@ static OF_PROGRAMS: &[PlcError] = &[
     row(
         6706,
         ModelSet::HM,
-        "a device does not exist",
-        "An index register or a count goes past the last device of a class. The instruction is skipped and the scan continues.",
-        "Check the index register and the count before the instruction.",
+        "a device does not exist, or a value has no result",
+        "An index register or a count goes past the last device of a class, or a function of floats has no result for its value, such as ESQR of a \
+         negative number. The instruction is skipped and the scan continues.",
+        "Check the index register, the count and the value before the instruction.",
     ),
     row(
         6706,

@@ -63,6 +63,7 @@ impl RtFn {
             RtFn::Rnd => const { &D_RANDOM.run::<2>() },
             RtFn::Reff => &[D_INPUT_FILTER],
             RtFn::Potentiometers => const { &D_ANALOG_INPUTS.run::<2>() },
+            RtFn::FromHost => const { &D_ANALOG_INPUTS.run::<8>() },
             RtFn::ToHost => const { &D_ANALOG_OUTPUTS.run::<8>() },
             _ => &[],
         }

@@ -42,6 +42,7 @@ use rungc_sim::Target;
 use rungc_sim::plant::{self, Axis, Description, Plant};
 use rungc_syntax::{DeviceClass, Program, codes, inputs};
 pub(super) use simulate::look_for_all;
+use std::fs;
 use std::path::Path;
 pub use watch::STANDARD_ERROR;
 
@@ -325,6 +326,10 @@ fn retained(
         }
         (None, None) => return Ok(None),
     };
+    if fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
+        let why = format!("--retain: {} is not a regular file", path.display());
+        return Err(Failure::Because(why));
+    }
     // What cannot be saved at the end is not begun.
     make_folder(parent_dir(&path))?;
     let fault = subject.unsaved();

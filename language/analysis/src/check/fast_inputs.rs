@@ -249,15 +249,17 @@ fn inputs_shared(code: &Code, others: &[Other], counters: &[Counter], out: &mut 
 }
 
 /// SPD and positioning on an input that serves something else. The manuals advise against it, but it works all the same
-/// (h1u-h2u-programming §4.3.6 allows what §4.3.1 forbids; l01s-programming §6.4.1).
+/// (h1u-h2u-programming §4.3.6 allows counters and interrupts at the input of SPD, and §4.3.1 advises against interrupts;
+/// l01s-programming §6.4.1).
 fn looked_at(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diagnostics) {
     let measures: Vec<(usize, u32)> = measured(code).map(|(i, x)| (i, x.number)).collect();
     let positions = positioned(code);
     let looks = measures.iter().chain(&positions);
     for (n, &(i, input)) in looks.enumerate() {
+        let is_free = n < measures.len() && code.model().high_speed.spd_takes_counters;
         let counter = counters
             .iter()
-            .find(|counter| counter.inputs.contains(&input))
+            .find(|counter| !is_free && counter.inputs.contains(&input))
             .map(|counter| (format!("counter `C{}`", counter.number), counter.coil));
         let other = others
             .iter()

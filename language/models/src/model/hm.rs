@@ -77,6 +77,7 @@ pub(super) const HM: Model = Model {
         crossing_zones: Some(0..=5),
         patterns: MASKED_PATTERNS,
         axes: AXES,
+        spd_takes_counters: false,
         per_minute: None,
         meters: &[],
         // hm-motion-controller §5.7.

@@ -90,6 +90,7 @@ pub(super) const H2U: Model = Model {
             off: Relay(8169),
         }),
         // h1u-h2u-programming §4.3.6.
+        spd_takes_counters: true,
         per_minute: Some(Relay(8100)),
         ..high_speed::FX
     },

@@ -6,7 +6,8 @@ use crate::fault::{Done, Fault};
 use crate::plc::Class;
 use crate::registry::RtFn;
 use crate::special::{
-    D_ANALOG_OUTPUTS, D_INPUT_FILTER, D_OUTPUT_USE, D_TRANSFER_COUNT, M_COMPLETE, M_TRANSFER_COUNT,
+    D_ANALOG_INPUTS, D_ANALOG_OUTPUTS, D_INPUT_FILTER, D_OUTPUT_USE, D_TRANSFER_COUNT, M_COMPLETE,
+    M_TRANSFER_COUNT,
 };
 
 /// Direction of a transfer between devices and the buffer memory of a module.
@@ -155,7 +156,8 @@ fn read_elements(cx: &mut Cx, n: i32) -> Done {
     Ok(())
 }
 
-/// FROM of L01S: where there is no module 0, that number means the host, whose first words are its analog inputs.
+/// FROM of L01S: where there is no module 0, that number means the host, whose first words are its analog inputs
+/// (l01s-programming §5.1.2). One that is not wired is as its register shows it, D8030 and so on.
 pub fn from_host(cx: &mut Cx) -> Done {
     let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
     if unit != 0 || cx.hal().read_bfm(unit, address).is_some() {
@@ -163,9 +165,15 @@ pub fn from_host(cx: &mut Cx) -> Done {
     }
     let n = transfer_count(cx)?;
     cx.check_words(2, n)?;
+    if i32::from(address) + n > ANALOG_CHANNELS {
+        return Err(Fault::MODULE);
+    }
     for k in 0..n {
-        let channel = u8::try_from(address_of(address, k)?).map_err(|_| Fault::MODULE)?;
-        let value = cx.hal().analog(channel).ok_or(Fault::MODULE)?;
+        let channel = address as u8 + k as u8;
+        let value = match cx.hal().analog(channel) {
+            Some(value) => value,
+            None => cx.special_word(D_ANALOG_INPUTS.after(channel.into())),
+        };
         cx.set_word(2, k, value)?;
     }
     Ok(())
@@ -236,8 +244,8 @@ pub fn to_remote(cx: &mut Cx) -> Done {
     exchange_remotely(cx, to)
 }
 
-/// Number of built-in analog outputs of L01S.
-const ANALOG_OUTPUT_CHANNELS: i32 = 8;
+/// Number of built-in analog inputs of L01S, and of its outputs.
+const ANALOG_CHANNELS: i32 = 8;
 
 /// TO of L01S: where there is no module 0, that number means the host, whose first words are its analog outputs (D8050
 /// …).
@@ -248,7 +256,7 @@ pub fn to_host(cx: &mut Cx) -> Done {
     }
     let n = transfer_count(cx)?;
     cx.check_words(2, n)?;
-    if i32::from(address) + n > ANALOG_OUTPUT_CHANNELS {
+    if i32::from(address) + n > ANALOG_CHANNELS {
         return Err(Fault::MODULE);
     }
     for k in 0..n {
@@ -512,8 +520,15 @@ mod tests {
         plc.call(RtFn::FromHost, &[k(0), k(0), reg(0), k(2)])
             .unwrap();
         assert_eq!(plc.d(0, 2), [1000, 3000]);
+        // The third one is not wired.
+        plc.set_d(8032, &[55]);
+        plc.call(RtFn::FromHost, &[k(0), k(1), reg(0), k(2)])
+            .unwrap();
+        assert_eq!(plc.d(0, 2), [3000, 55]);
+        plc.call(RtFn::FromHost, &[k(0), k(0), reg(0), k(2)])
+            .unwrap();
         assert_eq!(
-            plc.call(RtFn::FromHost, &[k(0), k(0), reg(0), k(3)]),
+            plc.call(RtFn::FromHost, &[k(0), k(0), reg(0), k(9)]),
             Err(Fault::MODULE)
         );
         plc.call(RtFn::ToHost, &[k(0), k(1), reg(0), k(2)]).unwrap();

@@ -39,14 +39,14 @@ pub(super) const HM: &[Special] = specials! {
     D 206-207 rw 0 by("OUT C") "AXV6: count at the input interrupt";
     D 208-209 rw 0 by("DHSCS") "AXV6: count when a comparison last requested an interrupt";
     D 210 rw 0 by("OUT C") "AXV6: counting mode, 0 phases, 1 direction, 2 up, 3 down";
-    D 211 rw 0 by("OUT C") "AXV6: edges that interrupt";
+    D 211 rw 0 by("OUT C") "AXV6: edges that interrupt; H00: the falling edge of X004 alone";
     D 212 rw 0 by("OUT C") "AXV6: pulses of the last millisecond";
     D 250-253 rw 0 by("OUT C") "AXV7: count of X002, 64 bits";
     D 254-255 rw 0 inert(AXES) "AXV7: count of the period";
     D 256-257 rw 0 by("OUT C") "AXV7: count at the input interrupt";
     D 258-259 rw 0 by("DHSCS") "AXV7: count when a comparison last requested an interrupt";
     D 260 rw 0 by("OUT C") "AXV7: counting mode, 0 phases, 1 direction, 2 up, 3 down";
-    D 261 rw 0 by("OUT C") "AXV7: edges that interrupt";
+    D 261 rw 0 by("OUT C") "AXV7: edges that interrupt; H00: the falling edge of X006 alone";
     D 262 rw 0 by("OUT C") "AXV7: pulses of the last millisecond";
     D 300-349 rw 0 by("axis motion") "AXV0, with its defaults when RUN starts: +0 output, +1 direction output, +2 time unit in ms (10), +5 highest speed (1000), +6 start speed, +7 acceleration (100), +8 to +11 inputs: DOG, Z, left and right limit, +12 speed of the return, +13 creep speed, +14 input modes, +15 pulses and +16 Z pulses past the DOG, +18 position, +20 state, +21 error, +22 increment, +23 stop inputs, +24 interrupt inputs, +26 position at the interrupt";
     D 350-399 rw 0 by("axis motion") "AXV1: as D300–D349";
