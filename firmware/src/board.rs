@@ -375,11 +375,12 @@ pub(crate) const FUNCTIONS: [(&str, &str); 23] = [
 
 /// Reads a description. Sources that it names are looked for beside it.
 pub fn load(path: &Path) -> Result<Board, BoardError> {
-    inputs::note(path);
-    let text = std::fs::read_to_string(path).map_err(|error| BoardError::Io {
+    let io = |error| BoardError::Io {
         path: path.to_path_buf(),
         error,
-    })?;
+    };
+    inputs::open(path).map_err(io)?;
+    let text = std::fs::read_to_string(path).map_err(io)?;
     let source = Source::new(path.display().to_string(), text);
     let folder = path.parent().unwrap_or(Path::new(""));
     parse(&source, folder)

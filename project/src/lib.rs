@@ -223,7 +223,7 @@ impl Project {
             path: path.to_owned(),
             error,
         };
-        inputs::note(path);
+        inputs::open(path).map_err(io)?;
         let mut bytes = Vec::new();
         let file = std::fs::File::open(path).map_err(io)?;
         file.take(MAX_SIZE + 1)

@@ -37,6 +37,7 @@
 
 mod diagnostic;
 mod error;
+pub mod explain;
 pub mod index;
 pub mod location;
 pub mod mistakes;
@@ -49,7 +50,9 @@ mod project;
 pub mod settings;
 pub mod trace;
 pub mod unproven;
+pub mod watch;
 pub mod why;
+pub mod xref;
 
 pub use diagnostic::{Diagnostic, Levels, Proposal, Related, Replacement};
 pub use error::Error;

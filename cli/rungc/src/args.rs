@@ -11,6 +11,7 @@ mod fleet;
 mod forms;
 mod listings;
 mod lsp;
+mod mcp;
 mod properties;
 mod repeated;
 mod serve;
@@ -35,6 +36,7 @@ pub use forms::{
 };
 pub use listings::{StatsArgs, StatsTo, ViewArgs, XrefArgs, XrefTo};
 pub use lsp::LspArgs;
+pub use mcp::McpArgs;
 pub use properties::Properties;
 pub use serve::{PageArgs, ServeArgs, ServeSettings};
 pub use start::{DemoArgs, DoctorArgs, DoctorFormat, InitArgs};
@@ -174,6 +176,15 @@ pub enum Command {
     /// (`rungc book editors`) and talk to it on standard input and output. Exit codes: 0: shut
     /// down by the editor; 1: the connection ended without that.
     Lsp(LspArgs),
+    /// Serve an assistant over the Model Context Protocol.
+    ///
+    /// Offers tools that read, check, run, test and prove programs, pages of the book, and prompts. Assistants start this
+    /// command (`rungc book assistants`) and talk to it on standard input and output. It reads files below its folders,
+    /// writes none unless `--allow-write` names a folder for that, and opens no connection. Exit codes: 0: the client
+    /// has closed the input; 2: incorrect usage, or output that cannot be written.
+    Mcp(McpArgs),
+    /// Print what an assistant, or a person in a hurry, must know of the language and of rungc.
+    Guide,
     /// Write rungc.toml, the commented settings of a project.
     Init(InitArgs),
     /// Write an example project into a new folder, and print a tour of its commands.
@@ -602,8 +613,9 @@ mod tests {
     use std::collections::BTreeSet;
 
     /// Arguments whose files are read. Those that are written have the type [`OutputPath`].
-    const INPUTS: [&str; 13] = [
+    const INPUTS: [&str; 15] = [
         "allow_folder",
+        "allow_write",
         "board",
         "export",
         "file",
@@ -613,6 +625,7 @@ mod tests {
         "names",
         "project",
         "retain",
+        "root",
         "same_as",
         "topic",
         "volume",

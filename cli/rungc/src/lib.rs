@@ -50,6 +50,8 @@ pub fn main() -> ExitCode {
         Command::Boards(args) => commands::boards::run(args, cx),
         Command::Flash(args) => commands::flash::run(args, cx),
         Command::Lsp(_) => commands::lsp::run(),
+        Command::Mcp(args) => commands::mcp::run(args),
+        Command::Guide => commands::mcp::guide(),
         Command::Init(args) => commands::init::run(args, cx),
         Command::Demo(args) => commands::demo::run(args, cx),
         Command::Doctor(args) => commands::doctor::run(args, cx),
@@ -110,6 +112,7 @@ fn context(cli: &Cli) -> Context {
             | Command::Stats(_)
             | Command::Diff(_)
             | Command::Lsp(_)
+            | Command::Mcp(_)
             | Command::Verify(_) => true,
             Command::Xref(args) => is_printed(&args.output),
             Command::Fmt(args) => args.check,

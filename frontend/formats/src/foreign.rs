@@ -85,8 +85,9 @@ fn language(text: &str) -> Option<(Language, Span)> {
             continue;
         }
         lines += 1;
-        of_lists += usize::from(is_of_list(code));
-        found.extend(sign(code).map(|(language, from, to)| {
+        let sign = sign(code);
+        of_lists += usize::from(sign.is_none() && is_of_list(code));
+        found.extend(sign.map(|(language, from, to)| {
             (
                 language,
                 Span::new((start + from) as u32, (start + to) as u32),
@@ -106,20 +107,21 @@ fn language(text: &str) -> Option<(Language, Span)> {
     } else {
         first
     };
+    let at_once = at_once && found.len() >= of_lists;
     let often = 4 * found.len() >= lines && found.len() > of_lists;
     (at_once || often).then_some((language, span))
 }
 
-/// Whether a line is a contact or coil of an FX list: `LD X000`, `OUT T0 K10`.
+/// Returns true if a line looks like an instruction of an FX list, though it may have mistakes: `LD X000`, `OUTT T0 K10`,
+/// `MOV D0`.
 fn is_of_list(line: &str) -> bool {
-    const WORDS: [&str; 9] = ["LD", "LDI", "AND", "ANI", "OR", "ORI", "OUT", "SET", "RST"];
     let mut words = line.split_whitespace();
     let (Some(word), Some(operand)) = (words.next(), words.next()) else {
         return false;
     };
     let (class, number) = operand.split_at(operand.chars().next().map_or(0, char::len_utf8));
-    WORDS.contains(&word.to_ascii_uppercase().as_str())
-        && "XYMSTC".contains(&class.to_ascii_uppercase())
+    word.starts_with(|first: char| first.is_ascii_alphabetic())
+        && "XYMSTCDKH".contains(&class.to_ascii_uppercase())
         && !number.is_empty()
         && number.bytes().all(|digit| digit.is_ascii_digit())
 }
@@ -213,6 +215,10 @@ mod tests {
     fn foreign_lines_in_a_list_hide_none_of_its_mistakes() {
         let list = "LD X0\nTON T0 K30\nLD X1\nOUT Y1\nIF M0\nOUT %QX0.0\nEND\n";
         assert!(detect("a.il", list).is_none());
+        let mistakes = "LDD X1\nOUT Y9\nMOV D0\nOUT M99999\nSETT M0\nEND\n";
+        for foreign in ["IF X0 THEN\n", "VAR\n", "Y0 := X0\n", "LD X0\nTON T1 K5\nIF X0 THEN\n"] {
+            assert!(detect("a.il", &format!("{foreign}{mistakes}")).is_none(), "{foreign}");
+        }
         assert!(detect("a.st", "IF X0 THEN\nLD X0\nOUT Y0\nEND_IF\n").is_some());
         assert!(detect("a.il", "LD start\nIF X0\nY0 := X0\nEND\n").is_some());
     }

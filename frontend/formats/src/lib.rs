@@ -364,7 +364,7 @@ fn load(path: &Path) -> Result<Vec<u8>, ReadError> {
         path: name(),
         source,
     };
-    inputs::note(path);
+    inputs::open(path).map_err(io)?;
     let file = File::open(path).map_err(io)?;
     if file.metadata().map_err(io)?.len() > MAX_SIZE {
         return Err(ReadError::TooLarge { name: name() });

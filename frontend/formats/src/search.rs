@@ -1,6 +1,7 @@
 //! Finding the programs in a folder.
 
 use crate::{GX_DEVELOPER, csv, encoding, find, image, main_file, plcopen};
+use rungc_syntax::inputs;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -79,6 +80,7 @@ fn is_left_out(folder: &DirEntry) -> bool {
 /// The beginning of a file; nothing if it cannot be read, which is reported where it is read whole.
 fn head(path: &Path) -> Option<Vec<u8>> {
     let mut head = Vec::new();
+    inputs::admit(path).ok()?;
     let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
     read.is_ok().then_some(head)
 }

@@ -41,6 +41,47 @@ pub enum Behaviour {
     Undecided(&'static str),
 }
 
+impl Behaviour {
+    /// The result in sentences. `proved` is one about outputs that something else proves to be the same.
+    pub fn in_words(&self, proved: Option<String>) -> Vec<String> {
+        let (devices, hardware) = match self {
+            Behaviour::Same => {
+                let same = "Same behaviour: with the same inputs, all devices have the same values.";
+                return vec![same.to_string()];
+            }
+            Behaviour::Undecided(why) => return vec![format!("Behaviour not decided: {why}.")],
+            Behaviour::CanDiffer {
+                devices, hardware, ..
+            } => (devices, hardware),
+        };
+        let (outputs, others): (Vec<&DeviceRun>, Vec<_>) =
+            devices.iter().partition(|run| run.class == DeviceClass::Y);
+        let mut words = vec![match outputs.is_empty() {
+            true => "No output can differ.".to_string(),
+            false => format!("Outputs that can differ: {}.", list(&outputs)),
+        }];
+        if !others.is_empty() {
+            words.push(format!("Other devices that can differ: {}.", list(&others)));
+        }
+        words.extend(proved);
+        if *hardware {
+            let what = "Modules, pulse outputs or serial ports can be used differently.";
+            words.push(what.to_string());
+        }
+        words.push("All other devices have the same values, with the same inputs.".to_string());
+        words
+    }
+}
+
+/// Runs of devices by their names.
+pub fn list(runs: &[&DeviceRun]) -> String {
+    let names = runs.iter().map(|run| match run.count {
+        1 => run.class.number(run.first).to_string(),
+        _ => run.to_string(),
+    });
+    names.collect::<Vec<_>>().join(", ")
+}
+
 /// Compares what two modules do. Both are simplified ([`crate::passes::simplify`]), without loops over repeated rungs.
 pub fn behaviour(old: &Module, new: &Module) -> Behaviour {
     if old.model.name != new.model.name {

@@ -5,14 +5,19 @@
 //! instructions are blocks whose types begin with `FX_`. What is written reads back to the same list, unless this has
 //! blocks or stacks that the drawing does not need.
 //!
+//! [`to_ladder`] writes a program as a list with drawn networks instead.
+//!
 //! Start reading at [`to_plcopen`], then `words` (what instructions are called in the standard) and the writers of the
 //! three languages: `sheet` (ladders), `lines` (lists), `chart` (charts).
 
 mod chart;
+mod drawn;
 mod lines;
 mod sheet;
 mod words;
 mod xml;
+
+pub use drawn::to_ladder;
 
 use lines::Lines;
 use rungc_analysis::resolve::resolve;

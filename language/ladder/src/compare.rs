@@ -1,5 +1,7 @@
 //! Comparing two programs network by network.
 
+pub mod text;
+
 use crate::network::{Ladder, Network};
 use rungc_analysis::latches;
 use rungc_analysis::resolve::Resolved;

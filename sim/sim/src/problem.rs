@@ -107,11 +107,11 @@ fn lines(source: &Source, problems: &[Problem]) -> String {
 
 /// The text of a file. Its name is the start of paths to files that it names, so it has to be UTF-8, too.
 pub(crate) fn read(path: &Path) -> Result<Source, LoadError> {
-    inputs::note(path);
     let io = |error| LoadError::Io {
         path: path.to_path_buf(),
         error,
     };
+    inputs::open(path).map_err(io)?;
     if path.to_str().is_none() {
         let what = "its name, or that of its folder, is not UTF-8; rename it";
         return Err(io(Error::new(ErrorKind::InvalidInput, what)));

@@ -86,7 +86,7 @@ pub(crate) fn properties(
 }
 
 fn read(path: &Path) -> io::Result<Vec<u8>> {
-    inputs::note(path);
+    inputs::open(path)?;
     let mut bytes = Vec::new();
     let file = std::fs::File::open(path)?;
     file.take(MAX_TABLE + 1).read_to_end(&mut bytes)?;

@@ -1,8 +1,16 @@
 //! The pages of functions, in Markdown as they are in the book, and as text.
 
 use crate::template::placeholders;
-use crate::{Demand, Form, Function, Over, Parameter, Presence, library};
+use crate::{Demand, Form, Function, Over, Parameter, Presence, find, library};
 use std::fmt::Write;
+
+/// The page of a function by its name, or the list of all: `functions`.
+pub fn of(topic: &str) -> Option<String> {
+    match topic {
+        "functions" => Some(list()),
+        topic => find(topic).map(text),
+    }
+}
 
 /// All functions, a line each.
 pub fn list() -> String {

@@ -24,6 +24,7 @@ pub mod prove;
 mod random;
 pub mod reduce;
 pub mod replay;
+pub mod request;
 pub mod same;
 pub mod sat;
 pub mod search;
@@ -31,6 +32,7 @@ pub mod steered;
 pub mod system;
 pub mod unroll;
 pub mod vacuous;
+pub mod words;
 pub mod written;
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! `rungc convert`.
 
-mod ladder;
 mod omitted;
 mod sources;
 
@@ -13,7 +12,7 @@ use crate::args::{ConvertArgs, ConvertTo, PlcopenBody};
 use crate::output::{file, write_file};
 use crate::report::{Findings, Reporter};
 use rungc_analysis::resolve::resolve;
-use rungc_export::to_plcopen;
+use rungc_export::{to_ladder, to_plcopen};
 use rungc_frontend::{Read, image, print};
 use rungc_lower::compile::{CompileOptions, model};
 use rungc_models::{Fit, Plc};
@@ -144,7 +143,7 @@ pub fn written(
     }
     match to {
         ConvertTo::Il => print::to_il(program).into_bytes(),
-        ConvertTo::Ladder => ladder::to_ladder(program, options).into_bytes(),
+        ConvertTo::Ladder => to_ladder(program, model(program, options)).into_bytes(),
         ConvertTo::Csv => match &read.export_head {
             Some(head) => print::to_csv_with(program, head),
             None => print::to_csv(&numbered(program, options)),

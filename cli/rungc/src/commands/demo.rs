@@ -6,7 +6,7 @@ use crate::output::write_new;
 use std::fmt::Write;
 
 /// The project: names and contents of its files.
-const FILES: [(&str, &str); 4] = [
+pub(super) const FILES: [(&str, &str); 4] = [
     ("gate.il", include_str!("demo/gate.il")),
     ("gate.machine.toml", include_str!("demo/gate.machine.toml")),
     ("gate.plctest.toml", include_str!("demo/gate.plctest.toml")),

@@ -7,20 +7,20 @@ mod text;
 
 use super::subject::{self, Subject};
 use super::view::PICTURE_WIDTH;
-use super::{Context, Failure, Outcome, Result, counted, eprint_line, print_text, read_as_written};
+use super::{Context, Failure, Outcome, Result, eprint_line, print_text, read_as_written};
 use crate::args::{DiffArgs, DiffFormat, Input};
 use crate::output::{file, write_file};
 use crate::report::{Findings, Reporter};
 use proof::Proofs;
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_frontend::Read;
-use rungc_ir::compare::{Behaviour, behaviour};
+use rungc_ir::compare::{Behaviour, behaviour, list};
 use rungc_ir::passes::simplify;
 use rungc_ladder::compare::{Comparison, Drawn, compare};
 use rungc_ladder::{Ladder, build, html, svg};
 use rungc_lower::compile::{CompileOptions, compile, model};
 use rungc_models::Model;
-use rungc_syntax::{DeviceClass, DeviceRun, Program};
+use rungc_syntax::{DeviceClass, Program};
 use rungc_verify::same::Output;
 use std::path::{Path, PathBuf};
 
@@ -201,15 +201,6 @@ fn of_both(old: &Side, new: &Side) -> Behaviour {
     }
 }
 
-/// Runs of devices by their names.
-fn list(runs: &[&DeviceRun]) -> String {
-    let names = runs.iter().map(|run| match run.count {
-        1 => run.class.number(run.first).to_string(),
-        _ => run.to_string(),
-    });
-    names.collect::<Vec<_>>().join(", ")
-}
-
 /// Maximum number of instructions named as limiting the comparison.
 const MOST_NAMED: usize = 12;
 
@@ -238,7 +229,7 @@ impl Compared<'_> {
     /// Result of comparing the behaviour, in sentences.
     fn in_words(&self) -> Vec<String> {
         let mut words = match &self.behaviour {
-            Some(behaviour) => in_words(behaviour, &self.proved.outputs),
+            Some(behaviour) => behaviour.in_words(proved_in_words(&self.proved.outputs)),
             None => return Vec::new(),
         };
         let vague = self.vague();
@@ -262,42 +253,17 @@ impl Compared<'_> {
     }
 }
 
-/// Result of comparing the behaviour, in sentences.
-fn in_words(behaviour: &Behaviour, proved: &[Output]) -> Vec<String> {
-    match behaviour {
-        Behaviour::Same => vec![
-            "Same behaviour: with the same inputs, all devices have the same values.".to_string(),
-        ],
-        Behaviour::Undecided(why) => vec![format!("Behaviour not decided: {why}.")],
-        Behaviour::CanDiffer {
-            devices, hardware, ..
-        } => {
-            let (outputs, others): (Vec<&DeviceRun>, Vec<_>) =
-                devices.iter().partition(|run| run.class == DeviceClass::Y);
-            let mut words = vec![match outputs.is_empty() {
-                true => "No output can differ.".to_string(),
-                false => format!("Outputs that can differ: {}.", list(&outputs)),
-            }];
-            if !others.is_empty() {
-                words.push(format!("Other devices that can differ: {}.", list(&others)));
-            }
-            if !proved.is_empty() {
-                let mut runs = Vec::new();
-                for output in proved {
-                    proof::add(&mut runs, DeviceClass::Y, output.number);
-                }
-                words.push(format!(
-                    "Outputs that are proved the same, with scans of at most {} ms: {}.",
-                    proof::scan_ms(),
-                    list(&runs.iter().collect::<Vec<_>>())
-                ));
-            }
-            if *hardware {
-                let what = "Modules, pulse outputs or serial ports can be used differently.";
-                words.push(what.to_string());
-            }
-            words.push("All other devices have the same values, with the same inputs.".to_string());
-            words
-        }
+/// Outputs that are proved the same, in a sentence.
+fn proved_in_words(proved: &[Output]) -> Option<String> {
+    let mut runs = Vec::new();
+    for output in proved {
+        proof::add(&mut runs, DeviceClass::Y, output.number);
     }
+    (!runs.is_empty()).then(|| {
+        format!(
+            "Outputs that are proved the same, with scans of at most {} ms: {}.",
+            proof::scan_ms(),
+            list(&runs.iter().collect::<Vec<_>>())
+        )
+    })
 }

@@ -5,9 +5,13 @@ use crate::args::InitArgs;
 use crate::output::write_new;
 use rungc_models::ModelId;
 use rungc_project::{FILE, template};
+use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Writes a rungc.toml beside a program, or into a folder.
+/// Name of the file that assistants read first.
+const AGENTS: &str = "AGENTS.md";
+
+/// Writes a rungc.toml beside a program, or into a folder, and an AGENTS.md if there is none.
 pub fn run(args: &InitArgs, cx: Context) -> Result {
     let (folder, program) = match &args.file {
         Some(file) if file.is_dir() && !rungc_frontend::is_project(file) => {
@@ -31,12 +35,24 @@ pub fn run(args: &InitArgs, cx: Context) -> Result {
             Err(_) => program.file_name().map_or(Path::new("."), Path::new),
         });
     name.map_or(Ok(()), |name| check_name(name, FILE))?;
-    let path = match folder == Path::new(".") {
-        true => PathBuf::from(FILE),
-        false => folder.join(FILE),
+    let path = |file: &str| match folder == Path::new(".") {
+        true => PathBuf::from(file),
+        false => folder.join(file),
     };
-    write_new(&[(path.clone(), template(name, model).as_bytes())])?;
-    cx.note(&format!("       Wrote {}", path.display()));
+    let settings = template(name, model);
+    let mut files = vec![(path(FILE), settings.as_bytes())];
+    let agents = path(AGENTS);
+    let is_new = fs::symlink_metadata(&agents).is_err();
+    if is_new {
+        files.push((agents.clone(), include_bytes!("init/AGENTS.md")));
+    }
+    write_new(&files)?;
+    for (path, _) in &files {
+        cx.note(&format!("       Wrote {}", path.display()));
+    }
+    if !is_new {
+        cx.note(&format!("        Kept {}", agents.display()));
+    }
     Ok(Outcome::Success)
 }
 

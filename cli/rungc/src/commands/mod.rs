@@ -21,6 +21,7 @@ pub mod interruption;
 pub mod learn;
 mod line;
 pub mod lsp;
+pub mod mcp;
 mod ports;
 mod properties;
 pub mod read;

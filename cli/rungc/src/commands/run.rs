@@ -33,7 +33,6 @@ use live::Live;
 use recorder::Recorder;
 use retaining::RetainStorage;
 use rungc::Names;
-use rungc_analysis::check::devices::{self, Holds, Use};
 use rungc_frontend::{Read, image};
 use rungc_interp::rt_class;
 use rungc_ir::Module;
@@ -48,9 +47,6 @@ pub use watch::STANDARD_ERROR;
 
 /// Number of devices shown by default.
 const DEFAULT_COLUMNS: usize = 12;
-
-/// Special relays and registers have numbers from here on; they are shown only when asked for.
-const SPECIAL_FIRST: u32 = 8000;
 
 /// Devices shown in a run by default.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -235,7 +231,16 @@ impl Requested {
     /// The devices that the run shows.
     fn shown(&self, program: &Program, module: &Module) -> Vec<Target> {
         match self.watched.is_empty() {
-            true => default_watch(program, module, &self.settings, self.machine.as_ref()),
+            true => {
+                let settings = || self.settings.iter();
+                let moves = |number| {
+                    let input = (DeviceClass::X, number);
+                    let is_set = settings().any(|s| observed(s.target).any(|d| d == input));
+                    let machine = self.machine.as_ref();
+                    is_set || machine.is_some_and(|m| m.drives(DeviceClass::X, number))
+                };
+                rungc::watch::usual(program, module, DEFAULT_COLUMNS, &moves)
+            }
             false => self.watched.clone(),
         }
     }
@@ -376,60 +381,4 @@ fn free_inputs(machine: &Description, settings: &[Setting]) -> std::result::Resu
         ))),
         None => Ok(()),
     }
-}
-
-/// Devices that change in a run, as many as fit in a line: the outputs that the program drives, the inputs that are set
-/// or that the machine drives, then the states, timers, counters, registers and relays that the program writes. Special
-/// devices are shown only when asked for.
-fn default_watch(
-    program: &Program,
-    module: &Module,
-    settings: &[Setting],
-    machine: Option<&Description>,
-) -> Vec<Target> {
-    use DeviceClass::{C, D, M, R, S, T, X, Y};
-    let uses = devices::uses(program, module.model);
-    let moves = |number| {
-        let is_set = settings
-            .iter()
-            .any(|s| observed(s.target).any(|d| d == (X, number)));
-        is_set || machine.is_some_and(|machine| machine.drives(X, number))
-    };
-    let of = |class| {
-        let uses = uses.iter().filter(move |(device, _)| device.class == class);
-        uses.map(|(device, of)| (device.number, *of))
-    };
-    let outputs = of(Y).filter(|(_, of)| of.written);
-    let inputs = of(X).filter(|(number, of)| of.read && moves(*number));
-    let bits = |class, (n, _)| Target::Bit(class, n);
-    let written = |class| {
-        let special = move |n: u32| matches!(class, D | M) && n >= SPECIAL_FIRST;
-        of(class).filter(move |(n, of)| of.written && !special(*n))
-    };
-    let word = |class, (n, of): (u32, Use)| match of.holds {
-        Holds::Single => Target::Word(class, n),
-        Holds::Double => Target::Pair(class, n),
-        Holds::Float => Target::Float(class, n),
-    };
-    outputs
-        .map(|of| bits(Y, of))
-        .chain(inputs.map(|of| bits(X, of)))
-        .chain(written(S).map(|of| bits(S, of)))
-        .chain(written(T).map(|(n, _)| Target::Current(T, n)))
-        .chain(written(C).map(|(n, _)| Target::Current(C, n)))
-        .chain(written(D).map(|of| word(D, of)))
-        .chain(written(R).map(|of| word(R, of)))
-        .chain(written(M).map(|of| bits(M, of)))
-        .filter(|target| exists(*target, module))
-        .take(DEFAULT_COLUMNS)
-        .collect()
-}
-
-/// Returns true if the module stores all devices of a target.
-fn exists(target: Target, module: &Module) -> bool {
-    let areas = &module.layout.areas;
-    observed(target).all(|(class, n)| {
-        let mut areas = areas.iter().filter(|area| area.class == class);
-        areas.any(|area| (area.first..area.first + area.count).contains(&n))
-    })
 }

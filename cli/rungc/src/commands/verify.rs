@@ -28,8 +28,8 @@ use rungc_sim::threads::Threads;
 use rungc_syntax::{Diagnostic, Diagnostics, Span, codes};
 use rungc_verify::certificate::{Certificate, certificate};
 use rungc_verify::model::World;
-use rungc_verify::prove::{Decision, EFFORT, Options, Verdict, Why, decide};
-use rungc_verify::vacuous::dead_end;
+use rungc_verify::prove::{Decision, EFFORT, Options, Verdict, decide};
+use rungc_verify::words::vacuous;
 use std::time::{Duration, Instant};
 
 /// Time limit of a proof by another solver.
@@ -213,18 +213,6 @@ fn withdraw(
             decision.verdict = Verdict::Undecided(why.clone());
         }
     }
-}
-
-/// Reason to take proofs back: one of the programs contradicts an assumption.
-fn vacuous<'m>(
-    modules: impl IntoIterator<Item = &'m Module>,
-    options: &Options,
-    assumed: &[String],
-) -> Option<Why> {
-    let mut modules = modules.into_iter();
-    let end = modules.find_map(|module| dead_end(module, options))?;
-    let contradiction = report::contradiction(&end, assumed, options.world.scan_ms);
-    Some(Why::Vacuous { contradiction })
 }
 
 /// The runs that were found, to be shown on other engines.

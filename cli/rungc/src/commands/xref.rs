@@ -1,7 +1,7 @@
 //! `rungc xref`.
 
+mod csv;
 mod html;
-mod table;
 
 use super::setting;
 use super::subject::{self, OutputPaths, Subject, option_of};
@@ -11,12 +11,12 @@ use super::{
 };
 use crate::args::{XrefArgs, XrefTo};
 use crate::output::{self, write_file};
-use crate::report::Reporter;
+use crate::report::{Reporter, to_json};
 use rungc::Names;
+use rungc::xref::Table;
 use rungc_analysis::resolve::resolve;
 use rungc_ladder::build;
 use rungc_lower::compile;
-use table::Table;
 
 /// Lists who uses which device.
 pub fn run(args: &XrefArgs, cx: Context) -> Result {
@@ -50,9 +50,9 @@ fn xref(
     let name = findings.name(reporter.many());
     let (bytes, ending) = match args.to {
         XrefTo::Text => (table.text(args.unused).into_bytes(), "txt"),
-        XrefTo::Csv => (table.csv()?, "csv"),
+        XrefTo::Csv => (csv::table(&table)?, "csv"),
         XrefTo::Html => (html::page(&name, &table).into_bytes(), "html"),
-        XrefTo::Json => (table.json()?, "json"),
+        XrefTo::Json => (to_json(&table)?.into_bytes(), "json"),
     };
     if output::file(&args.output).is_none() && args.to == XrefTo::Text {
         let heading = match reporter.many() {

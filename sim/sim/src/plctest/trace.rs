@@ -5,6 +5,7 @@ use super::runner::Running;
 use super::{Failure, Setting, Value};
 use crate::target::Target;
 use rungc_ir::fnv1a;
+use rungc_syntax::inputs;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -75,7 +76,9 @@ impl Reader<'_> {
         self.inputs.insert(path.clone());
         Some(Trace {
             devices,
-            accepted: std::fs::read_to_string(&path).ok(),
+            accepted: inputs::admit(&path)
+                .and_then(|()| std::fs::read_to_string(&path))
+                .ok(),
             path,
         })
     }

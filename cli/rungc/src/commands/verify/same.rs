@@ -22,6 +22,7 @@ use rungc_verify::prove::{Options, Verdict};
 use rungc_verify::replay::Change;
 use rungc_verify::same::{Compared, Output, compare};
 use rungc_verify::search::Trace;
+use rungc_verify::words::vacuous;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
@@ -135,7 +136,7 @@ fn is_same(output: &Output) -> bool {
 
 /// Takes proofs back if one of the programs contradicts an assumption.
 fn withdraw(compared: &mut Compared, modules: &[Module; 2], options: &Options, assumed: &[String]) {
-    if let Some(why) = super::vacuous(modules, options, assumed) {
+    if let Some(why) = vacuous(modules, options, assumed) {
         for output in compared.outputs.iter_mut().filter(|output| is_same(output)) {
             output.proof = None;
             output.verdict = Verdict::Undecided(why.clone());

@@ -1,6 +1,6 @@
 //! A cross reference as a page that needs nothing else.
 
-use super::table::{Entry, Table};
+use rungc::xref::{Entry, Table};
 use rungc_ladder::html::Escaped;
 use std::fmt::{self, Write};
 

@@ -1,7 +1,5 @@
-//! Proposals for topics that `rungc explain` does not know.
+//! Proposals for topics without a page.
 
-use super::super::book;
-use rungc_functions::library;
 use rungc_models::plc_errors;
 use rungc_models::runs::is_special;
 use rungc_models::{Model, ModelId, Plc, VARIANTS};
@@ -11,8 +9,8 @@ use rungc_syntax::{DeviceClass, codes, diag};
 const AROUND: u16 = 50;
 const MOST: usize = 3;
 
-/// The message for a topic that is not known.
-pub(super) fn unknown(topic: &str, plc: Option<Plc>) -> String {
+/// The message for a topic that is not known. `others` are names of pages that the caller has beside these.
+pub fn unknown(topic: &str, plc: Option<Plc>, others: &[&str]) -> String {
     let upper = topic.to_uppercase();
     if let Ok(number) = upper.parse::<u16>() {
         let near = own_code(number).unwrap_or_else(|| near_error(number, plc));
@@ -30,7 +28,7 @@ pub(super) fn unknown(topic: &str, plc: Option<Plc>) -> String {
             ),
         };
     }
-    let hint = near_name(topic, &upper).map(|near| format!("; did you mean `{near}`?"));
+    let hint = near_name(topic, &upper, others).map(|near| format!("; did you mean `{near}`?"));
     format!(
         "`{topic}` is not a diagnostic code, PLC error code, instruction, special device, model, safety function or page of the book{}",
         hint.unwrap_or_default()
@@ -97,7 +95,7 @@ fn nearest(names: &[String]) -> String {
 }
 
 /// The name nearest to a misspelt one.
-fn near_name(topic: &str, upper: &str) -> Option<String> {
+fn near_name(topic: &str, upper: &str, others: &[&str]) -> Option<String> {
     let codes = codes::all().into_iter().map(|code| code.id.to_owned());
     let spellings = rungc_catalogue::all().flat_map(|inst| inst.spellings());
     let spellings = spellings.map(|(spelling, _)| spelling);
@@ -106,16 +104,11 @@ fn near_name(topic: &str, upper: &str) -> Option<String> {
     let titles = codes::all().into_iter().map(|code| code.name);
     let variants = VARIANTS.iter().map(|variant| variant.name);
     let models = ModelId::ALL.map(|id| Model::get(id).name);
-    let pages = book::PAGES.iter().map(|page| page.name);
-    let functions = library::all().map(|function| function.name);
+    let others = others.iter().copied();
     let in_upper = diag::did_you_mean(upper, in_upper.iter().map(String::as_str));
     let in_lower = diag::did_you_mean(
         &lower,
-        titles
-            .chain(variants)
-            .chain(models)
-            .chain(pages)
-            .chain(functions),
+        titles.chain(variants).chain(models).chain(others),
     );
     let far = |near: &str| diag::distance(&lower, &near.to_lowercase(), upper.len());
     let found = in_upper.into_iter().chain(in_lower);

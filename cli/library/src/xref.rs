@@ -1,17 +1,16 @@
-//! A cross reference with all that is shown of it.
+//! The cross reference of a program: who uses which device, as `rungc xref` lists it.
 
-use crate::commands::Failure;
-use crate::report::to_json;
-use rungc_analysis::resolve::Resolved;
+use crate::Project;
+use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_analysis::xref::{CrossReference, Reach, Row, Use};
-use rungc_ladder::Ladder;
+use rungc_ladder::{Ladder, build};
 use rungc_syntax::text::one_line;
 use rungc_syntax::{Device, DeviceClass};
 use serde::Serialize;
 use std::fmt::{self, Write};
 
 /// The cross reference of a program.
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 pub struct Table {
     /// The PLC model.
     pub model: &'static str,
@@ -24,7 +23,7 @@ pub struct Table {
 }
 
 /// Devices next to each other that the same instructions use.
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 pub struct Entry {
     /// First and last.
     #[serde(flatten)]
@@ -37,10 +36,12 @@ pub struct Entry {
 }
 
 /// A run of devices.
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 pub struct Area {
-    first: String,
-    last: String,
+    /// The first.
+    pub first: String,
+    /// The last.
+    pub last: String,
 }
 
 impl Area {
@@ -63,7 +64,7 @@ impl fmt::Display for Area {
 }
 
 /// One use.
-#[derive(Clone, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Line {
     /// Number of the network, from 1.
     pub network: usize,
@@ -80,7 +81,7 @@ pub struct Line {
 }
 
 /// Two instructions whose areas overlap.
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 pub struct Overlap {
     /// The area that begins first.
     pub first: Line,
@@ -90,17 +91,12 @@ pub struct Overlap {
     pub shared: Area,
 }
 
-/// A line of a CSV file.
-#[derive(Serialize)]
-struct Record<'a> {
-    first: &'a str,
-    last: &'a str,
-    comment: &'a str,
-    network: usize,
-    step: u32,
-    r#use: &'a str,
-    instruction: &'a str,
-    reach: &'a str,
+impl Project {
+    /// The cross reference: of the devices in these ranges, or of all if there are none.
+    pub fn xref(&self, ranges: &[(DeviceClass, u32, u32)]) -> Table {
+        let (resolved, _) = resolve(self.source(), self.model());
+        Table::new(&resolved, &build::ladder(&resolved), ranges)
+    }
 }
 
 impl Table {
@@ -167,34 +163,6 @@ impl Table {
             writeln!(out, "\nUnused\n    {}", areas.join(", "))?;
         }
         Ok(())
-    }
-
-    /// A line for each use, with headers.
-    pub fn csv(&self) -> Result<Vec<u8>, Failure> {
-        let mut out = csv::Writer::from_writer(Vec::new());
-        for entry in &self.devices {
-            for line in &entry.uses {
-                let record = Record {
-                    first: &entry.area.first,
-                    last: &entry.area.last,
-                    comment: &entry.comment,
-                    network: line.network,
-                    step: line.step,
-                    r#use: line.kind,
-                    instruction: &line.instruction,
-                    reach: line.reach.unwrap_or_default(),
-                };
-                out.serialize(record)
-                    .map_err(|error| Failure::Because(error.to_string()))?;
-            }
-        }
-        out.into_inner()
-            .map_err(|error| Failure::Because(error.to_string()))
-    }
-
-    /// One JSON object.
-    pub fn json(&self) -> Result<Vec<u8>, Failure> {
-        Ok(to_json(self)?.into_bytes())
     }
 }
 

@@ -1,10 +1,10 @@
-//! `--to ladder`: networks drawn in characters, which reads back to the same program.
+//! A program as a list with networks drawn in characters, which reads back to the same program.
 
 use rungc_analysis::resolve::resolve;
 use rungc_frontend::{print, read_bytes};
 use rungc_ladder::build;
 use rungc_ladder::text::{Style, draw_alike};
-use rungc_lower::compile::{CompileOptions, model};
+use rungc_models::Model;
 use rungc_syntax::{Instr, Program};
 
 /// Characters on a line.
@@ -12,8 +12,8 @@ const WIDTH: usize = 100;
 
 /// The program as drawn ladder. A network whose drawing does not say all that its list says, such as blocks that ANB
 /// joins without need, stays a list.
-pub fn to_ladder(program: &Program, options: &CompileOptions) -> String {
-    let (resolved, _) = resolve(program, model(program, options));
+pub fn to_ladder(program: &Program, model: &'static Model) -> String {
+    let (resolved, _) = resolve(program, model);
     let ladder = build::ladder(&resolved);
     let style = Style {
         width: WIDTH,

@@ -1,0 +1,40 @@
+//! A cross reference as a table in CSV.
+
+use crate::commands::Failure;
+use rungc::xref::Table;
+use serde::Serialize;
+
+/// A line of the file.
+#[derive(Serialize)]
+struct Record<'a> {
+    first: &'a str,
+    last: &'a str,
+    comment: &'a str,
+    network: usize,
+    step: u32,
+    r#use: &'a str,
+    instruction: &'a str,
+    reach: &'a str,
+}
+
+/// A line for each use, with headers.
+pub fn table(table: &Table) -> Result<Vec<u8>, Failure> {
+    let failed = |error: &dyn std::fmt::Display| Failure::Because(error.to_string());
+    let mut out = ::csv::Writer::from_writer(Vec::new());
+    for entry in &table.devices {
+        for line in &entry.uses {
+            let record = Record {
+                first: &entry.area.first,
+                last: &entry.area.last,
+                comment: &entry.comment,
+                network: line.network,
+                step: line.step,
+                r#use: line.kind,
+                instruction: &line.instruction,
+                reach: line.reach.unwrap_or_default(),
+            };
+            out.serialize(record).map_err(|error| failed(&error))?;
+        }
+    }
+    out.into_inner().map_err(|error| failed(&error))
+}
