@@ -12,8 +12,8 @@ use rungc_syntax::DeviceClass;
 use rungc_syntax::codes::{self, Code};
 use std::fmt::Write;
 
-/// The page of a topic: a code of diagnostics or its name, an error code of the PLC, an instruction, a special device, a
-/// model or a variant of one. With a PLC, what it has of that; else what all models have.
+/// The page of a topic: a code of diagnostics or its name, an error code of the PLC, an instruction, a special device,
+/// a model or a variant of one. With a PLC, what it has of that; else what all models have.
 pub fn page(topic: &str, plc: Option<Plc>) -> Option<String> {
     let lower = topic.trim().to_lowercase();
     let topic = topic.trim().to_uppercase();

@@ -64,7 +64,9 @@ impl Plc<'_> {
     /// Names of the devices that are worth watching, at most `count`: of the inputs, those that `moved` names.
     pub fn usual_watch(&mut self, count: usize, moved: &[&str]) -> Vec<String> {
         let (source, _) = self.explained();
-        let moved = moved.iter().filter_map(|name| source.names.target(name).ok());
+        let moved = moved
+            .iter()
+            .filter_map(|name| source.names.target(name).ok());
         let moved: Vec<_> = moved.map(|target| target.devices(TEXT_LENGTH)).collect();
         let moves = |number| {
             let is_input = |&&(class, first, count): &&(DeviceClass, u32, u32)| {

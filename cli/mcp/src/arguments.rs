@@ -60,7 +60,10 @@ pub(crate) fn schema(parameters: &[&[Parameter]]) -> Value {
             (parameter.name.to_owned(), schema)
         })
         .collect();
-    let required: Vec<&str> = all().filter(|one| one.required).map(|one| one.name).collect();
+    let required: Vec<&str> = all()
+        .filter(|one| one.required)
+        .map(|one| one.name)
+        .collect();
     let mut schema = json!({
         "type": "object",
         "properties": properties,
@@ -109,7 +112,10 @@ impl Arguments {
     ///
     /// # Errors
     /// What is wrong with one of them, and what to write.
-    pub(crate) fn new(given: Map<String, Value>, parameters: &[&[Parameter]]) -> Result<Self, String> {
+    pub(crate) fn new(
+        given: Map<String, Value>,
+        parameters: &[&[Parameter]],
+    ) -> Result<Self, String> {
         let all = || parameters.iter().copied().flatten();
         let is_given = |name: &str| given.get(name).is_some_and(|value| !value.is_null());
         if let Some(missing) = all().find(|one| one.required && !is_given(one.name)) {
@@ -166,7 +172,10 @@ impl Input {
         let set = value.get("set")?.as_object()?;
         Some(Input {
             at_ms: value.get("at_ms").and_then(Value::as_u64).unwrap_or(0),
-            set: set.iter().map(|(name, value)| (name.clone(), value.clone())).collect(),
+            set: set
+                .iter()
+                .map(|(name, value)| (name.clone(), value.clone()))
+                .collect(),
         })
     }
 }
@@ -177,7 +186,10 @@ fn unknown<'n>(name: &str, known: impl Iterator<Item = &'n str> + Clone) -> Stri
         Some(near) => format!("there is no argument `{name}`; did you mean `{near}`?"),
         None => {
             let known: Vec<_> = known.map(|name| format!("`{name}`")).collect();
-            format!("there is no argument `{name}`; there are {}", known.join(", "))
+            format!(
+                "there is no argument `{name}`; there are {}",
+                known.join(", ")
+            )
         }
     }
 }
@@ -195,7 +207,9 @@ fn fits(parameter: &Parameter, value: &Value) -> Result<(), String> {
             _ => format!("an integer from {least} to {most}"),
         },
         Kind::Texts => match value.as_array() {
-            Some(list) if list.len() <= MOST_ITEMS && list.iter().all(Value::is_string) => return Ok(()),
+            Some(list) if list.len() <= MOST_ITEMS && list.iter().all(Value::is_string) => {
+                return Ok(());
+            }
             _ => format!("a list of at most {MOST_ITEMS} texts, such as [\"X000\", \"M0\"]"),
         },
         Kind::Choice(choices) => match value.as_str() {
@@ -217,7 +231,9 @@ fn is_input(value: &Value) -> bool {
     };
     input.iter().all(|(name, value)| match name.as_str() {
         "at_ms" => value.is_u64(),
-        "set" => value.as_object().is_some_and(|set| set.values().all(is_value)),
+        "set" => value
+            .as_object()
+            .is_some_and(|set| set.values().all(is_value)),
         _ => false,
     }) && input.contains_key("set")
 }
@@ -237,7 +253,9 @@ mod tests {
     ];
 
     fn why(value: Value) -> String {
-        let Value::Object(given) = value else { panic!("{value}") };
+        let Value::Object(given) = value else {
+            panic!("{value}")
+        };
         match Arguments::new(given, &[PARAMETERS]) {
             Ok(_) => "fits".to_owned(),
             Err(why) => why,

@@ -33,10 +33,15 @@ impl Files {
                 true => Ok(real),
                 false => Err(io::ErrorKind::NotADirectory.into()),
             });
-            let why = |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", folder.display()));
+            let why = |error: io::Error| {
+                io::Error::new(error.kind(), format!("{}: {error}", folder.display()))
+            };
             Ok::<_, io::Error>((folder.to_owned(), real.map_err(why)?))
         };
-        let roots = roots.iter().map(|root| named(root)).collect::<io::Result<Vec<_>>>()?;
+        let roots = roots
+            .iter()
+            .map(|root| named(root))
+            .collect::<io::Result<Vec<_>>>()?;
         Ok(Files {
             roots,
             write: write.map(named).transpose()?,
@@ -51,7 +56,9 @@ impl Files {
 
     /// The folder from which relative paths begin.
     fn base(&self) -> &Path {
-        self.roots.first().map_or(Path::new("."), |(named, _)| named)
+        self.roots
+            .first()
+            .map_or(Path::new("."), |(named, _)| named)
     }
 
     /// The path of a file or folder in this process.
@@ -104,7 +111,11 @@ impl Files {
     }
 
     fn outside(&self, text: &str) -> String {
-        let roots: Vec<_> = self.roots.iter().map(|(named, _)| format!("`{}`", named.display())).collect();
+        let roots: Vec<_> = self
+            .roots
+            .iter()
+            .map(|(named, _)| format!("`{}`", named.display()))
+            .collect();
         format!(
             "`{}` is outside of what may be read here: {}; the user can start `rungc mcp` with another `--root`",
             crate::protocol::clipped(text),
@@ -116,7 +127,11 @@ impl Files {
     fn near(&self) -> String {
         const MOST: usize = 8;
         let programs = rungc::settings::programs_in(self.base()).unwrap_or_default();
-        let named: Vec<_> = programs.iter().take(MOST).map(|path| format!("`{}`", self.shown(path))).collect();
+        let named: Vec<_> = programs
+            .iter()
+            .take(MOST)
+            .map(|path| format!("`{}`", self.shown(path)))
+            .collect();
         match (named.len(), programs.len().saturating_sub(MOST)) {
             (0, _) => String::new(),
             (_, 0) => format!("; programs here: {}", named.join(", ")),
@@ -134,15 +149,29 @@ impl Files {
     ///
     /// # Errors
     /// A path outside of the folder for that, another kind of file, a file that is there already.
-    pub(crate) fn write(&mut self, text: &str, content: &str, overwrite: bool) -> Result<PathBuf, String> {
+    pub(crate) fn write(
+        &mut self,
+        text: &str,
+        content: &str,
+        overwrite: bool,
+    ) -> Result<PathBuf, String> {
         let Some((named, folder)) = self.write.clone() else {
-            return Err("this server writes no files; the user can start it with `--allow-write DIR`".to_owned());
+            return Err(
+                "this server writes no files; the user can start it with `--allow-write DIR`"
+                    .to_owned(),
+            );
         };
         if !WRITABLE.iter().any(|ending| text.ends_with(ending)) {
-            return Err(format!("`{text}`: only files with these endings are written: {}", WRITABLE.join(", ")));
+            return Err(format!(
+                "`{text}`: only files with these endings are written: {}",
+                WRITABLE.join(", ")
+            ));
         }
         if content.len() > MAX_WRITTEN {
-            return Err(format!("at most {} KiB are written to a file", MAX_WRITTEN >> 10));
+            return Err(format!(
+                "at most {} KiB are written to a file",
+                MAX_WRITTEN >> 10
+            ));
         }
         let path = match Path::new(text).is_absolute() {
             true => PathBuf::from(text),
@@ -154,7 +183,9 @@ impl Files {
             (Some(Ok(parent)), Some(name)) if parent.starts_with(&folder) => parent.join(name),
             _ => {
                 let folder = named.display();
-                return Err(format!("`{text}` is not in a folder in which files may be written: `{folder}`"));
+                return Err(format!(
+                    "`{text}` is not in a folder in which files may be written: `{folder}`"
+                ));
             }
         };
         let put = self.put(&real, content, overwrite);
@@ -167,16 +198,21 @@ impl Files {
         if fs::symlink_metadata(real).is_err() {
             let file = OpenOptions::new().write(true).create_new(true).open(real);
             self.written.insert(real.to_owned());
-            return file.and_then(|mut file| file.write_all(content.as_bytes())).map_err(failed);
+            return file
+                .and_then(|mut file| file.write_all(content.as_bytes()))
+                .map_err(failed);
         }
         let is_link = fs::symlink_metadata(real).is_ok_and(|data| data.is_symlink());
         match (self.written.contains(real), overwrite) {
             _ if is_link => Err("it is a link".to_owned()),
             (false, _) => Err("it was there before; choose another name".to_owned()),
-            (true, false) => Err("you have written it before; add `overwrite: true` to replace it".to_owned()),
+            (true, false) => {
+                Err("you have written it before; add `overwrite: true` to replace it".to_owned())
+            }
             (true, true) => {
                 let file = File::create(real);
-                file.and_then(|mut file| file.write_all(content.as_bytes())).map_err(failed)
+                file.and_then(|mut file| file.write_all(content.as_bytes()))
+                    .map_err(failed)
             }
         }
     }
@@ -220,11 +256,23 @@ mod tests {
         assert!(files.find("deep/../a.il").is_ok());
         let secret = outside.path().join("secret.il").display().to_string();
         let missing = outside.path().join("nothing.il").display().to_string();
-        for path in [&secret, &missing, "../x.il", "deep/../../x.il", "/etc/passwd", "no/../../../etc/passwd"] {
+        for path in [
+            &secret,
+            &missing,
+            "../x.il",
+            "deep/../../x.il",
+            "/etc/passwd",
+            "no/../../../etc/passwd",
+        ] {
             let why = files.find(path).unwrap_err();
             assert!(why.contains("outside of what may be read"), "{path}: {why}");
         }
-        assert!(files.find("b.il").unwrap_err().contains("programs here: `a.il`"));
+        assert!(
+            files
+                .find("b.il")
+                .unwrap_err()
+                .contains("programs here: `a.il`")
+        );
         assert!(files.find("").is_err() && files.find("a\0").is_err());
     }
 
@@ -235,7 +283,8 @@ mod tests {
         fs::write(outside.path().join("secret.il"), "LD X0\nEND\n").unwrap();
         let root = tempfile::tempdir().unwrap();
         std::os::unix::fs::symlink(outside.path(), root.path().join("link")).unwrap();
-        std::os::unix::fs::symlink(outside.path().join("secret.il"), root.path().join("b.il")).unwrap();
+        std::os::unix::fs::symlink(outside.path().join("secret.il"), root.path().join("b.il"))
+            .unwrap();
         let mut files = Files::new(&[root.path().to_owned()], Some(root.path())).unwrap();
         for path in ["link/secret.il", "link", "b.il"] {
             assert!(files.find(path).is_err(), "{path}");
@@ -243,7 +292,10 @@ mod tests {
         for path in ["link/new.il", "b.il"] {
             assert!(files.write(path, "", true).is_err(), "{path}");
         }
-        assert_eq!(fs::read_to_string(outside.path().join("secret.il")).unwrap(), "LD X0\nEND\n");
+        assert_eq!(
+            fs::read_to_string(outside.path().join("secret.il")).unwrap(),
+            "LD X0\nEND\n"
+        );
     }
 
     #[test]
@@ -252,7 +304,11 @@ mod tests {
         fs::write(root.path().join("old.il"), "END\n").unwrap();
         let mut files = Files::new(&[root.path().to_owned()], Some(root.path())).unwrap();
         let mut write = |path: &str, overwrite| files.write(path, "LD X0\nEND\n", overwrite);
-        assert!(write("old.il", true).unwrap_err().contains("was there before"));
+        assert!(
+            write("old.il", true)
+                .unwrap_err()
+                .contains("was there before")
+        );
         assert!(write("new.il", false).is_ok());
         assert!(write("new.il", false).unwrap_err().contains("overwrite"));
         assert!(write("new.il", true).is_ok());
@@ -261,6 +317,11 @@ mod tests {
         }
         assert!(!Path::new("/tmp/a.il").exists());
         let mut closed = Files::new(&[root.path().to_owned()], None).unwrap();
-        assert!(closed.write("b.il", "", false).unwrap_err().contains("--allow-write"));
+        assert!(
+            closed
+                .write("b.il", "", false)
+                .unwrap_err()
+                .contains("--allow-write")
+        );
     }
 }

@@ -27,6 +27,7 @@ mod tools;
 
 pub use stdio::serve;
 
+use files::Files;
 use std::io;
 use std::path::PathBuf;
 
@@ -62,7 +63,14 @@ pub struct Text {
 /// # Errors
 /// A folder that does not exist; output that cannot be written.
 pub fn serve_stdio(options: &Options) -> io::Result<()> {
-    let folders: Vec<PathBuf> = options.roots.iter().chain(&options.write).cloned().collect();
+    // Names a folder that does not exist.
+    Files::new(&options.roots, options.write.as_deref())?;
+    let folders: Vec<PathBuf> = options
+        .roots
+        .iter()
+        .chain(&options.write)
+        .cloned()
+        .collect();
     rungc_syntax::inputs::confine(&folders)?;
     serve(io::stdin(), io::stdout(), options)
 }

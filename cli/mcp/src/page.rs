@@ -62,7 +62,10 @@ impl Page {
 
 /// A line that is longer than a part is cut.
 fn shortened(line: &str) -> &str {
-    let end = line.char_indices().map(|(at, _)| at).find(|at| *at >= BYTES);
+    let end = line
+        .char_indices()
+        .map(|(at, _)| at)
+        .find(|at| *at >= BYTES);
     &line[..end.unwrap_or(line.len())]
 }
 
@@ -70,12 +73,18 @@ fn shortened(line: &str) -> &str {
 pub(crate) fn remark(next: Option<usize>, total: usize, what: &str) -> String {
     match next {
         None => String::new(),
-        Some(next) => format!("\n[{next} of {total} {what}; call again with \"offset\": {next} for the rest]\n"),
+        Some(next) => format!(
+            "\n[{next} of {total} {what}; call again with \"offset\": {next} for the rest]\n"
+        ),
     }
 }
 
-/// Part of a list: at most so many entries, the number of all, and where the next part begins.
-pub(crate) fn entries<T>(all: Vec<T>, offset: usize, most: usize) -> (Vec<T>, usize, Option<usize>) {
+/// Part of a list: at most `most` entries, the number of all, and where the next part begins.
+pub(crate) fn entries<T>(
+    all: Vec<T>,
+    offset: usize,
+    most: usize,
+) -> (Vec<T>, usize, Option<usize>) {
     let total = all.len();
     let part: Vec<T> = all.into_iter().skip(offset).take(most).collect();
     let end = offset.saturating_add(part.len());

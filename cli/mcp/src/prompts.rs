@@ -19,7 +19,11 @@ const ALL: [Prompt; 5] = [
         title: "Write a program",
         text: "Write a program from a description of a machine",
         arguments: &[
-            ("description", "what the machine does, with its buttons, sensors and actuators", true),
+            (
+                "description",
+                "what the machine does, with its buttons, sensors and actuators",
+                true,
+            ),
             ("model", "the PLC, such as fx3u", false),
         ],
         body: "Write a PLC program as an instruction list for this machine (PLC: {model}):\n\n{description}\n\n\
@@ -39,7 +43,11 @@ const ALL: [Prompt; 5] = [
         text: "Find out why an output stays off, from the program and the state of the inputs",
         arguments: &[
             ("path", "the program", true),
-            ("device", "the output or relay that should be on, or its comment", true),
+            (
+                "device",
+                "the output or relay that should be on, or its comment",
+                true,
+            ),
             ("state", "what is known of the inputs", false),
         ],
         body: "The machine stands still: `{device}` of `{path}` should be on and is not. What is known: {state}\n\n\
@@ -53,7 +61,10 @@ const ALL: [Prompt; 5] = [
         name: "review-change",
         title: "Review a change",
         text: "Review the change from one version of a program to another",
-        arguments: &[("old", "the program before", true), ("new", "the program after", true)],
+        arguments: &[
+            ("old", "the program before", true),
+            ("new", "the program after", true),
+        ],
         body: "Review the change from `{old}` to `{new}`.\n\n\
                1. `diff` with `semantic: true`: which networks, which devices can behave differently.\n\
                2. `check` both: which findings are new.\n\
@@ -65,7 +76,10 @@ const ALL: [Prompt; 5] = [
         name: "write-tests",
         title: "Write tests",
         text: "Write a test file for a program",
-        arguments: &[("path", "the program", true), ("functions", "what to test; else all functions", false)],
+        arguments: &[
+            ("path", "the program", true),
+            ("functions", "what to test; else all functions", false),
+        ],
         body: "Write a test file (`.plctest.toml`) for `{path}`. To be tested: {functions}\n\n\
                1. `open` and `view` the program; read rungc://book/test-files.\n\
                2. List its functions, and for each the case that it works and the case that a sensor, a time or an \
@@ -86,7 +100,8 @@ const ALL: [Prompt; 5] = [
                1. `open` the program and find the devices by their comments; read rungc://book/prove.\n\
                2. Write the property as a condition, such as `never` `Y000 & Y001`, and say it back in words.\n\
                3. `verify` it. If it is violated: explain the run that is shown, and which network allows it.\n\
-               4. If it is proved: repeat all assumptions, and ask whether they hold for this machine (panels that write \
+               4. If it is proved: repeat all assumptions, and ask whether they hold for this machine \
+               (panels that write \
                devices, scan time). If it is not decided: say so, and why.\n\
                5. A proof is about the program alone: it does not replace an interlock in hardware or a safety \
                assessment.",
@@ -115,18 +130,26 @@ pub(crate) fn list() -> Vec<Value> {
 /// # Errors
 /// An unknown prompt, an argument that is missing or not a text.
 pub(crate) fn get(name: &str, given: Option<&Map<String, Value>>) -> Result<Value, String> {
-    let prompt = ALL.iter().find(|prompt| prompt.name == name).ok_or_else(|| {
-        let names: Vec<_> = ALL.iter().map(|prompt| prompt.name).collect();
-        let name = crate::protocol::clipped(name);
-        format!("there is no prompt `{name}`; there are {}", names.join(", "))
-    })?;
+    let prompt = ALL
+        .iter()
+        .find(|prompt| prompt.name == name)
+        .ok_or_else(|| {
+            let names: Vec<_> = ALL.iter().map(|prompt| prompt.name).collect();
+            let name = crate::protocol::clipped(name);
+            format!(
+                "there is no prompt `{name}`; there are {}",
+                names.join(", ")
+            )
+        })?;
     let mut values = Vec::new();
     for (name, text, required) in prompt.arguments {
         let value = given.and_then(|given| given.get(*name));
         match (value, required) {
             (Some(Value::String(value)), _) => values.push((format!("{{{name}}}"), value.as_str())),
             (None | Some(Value::Null), false) => values.push((format!("{{{name}}}"), "not stated")),
-            (None | Some(Value::Null), true) => return Err(format!("the argument `{name}` is missing: {text}")),
+            (None | Some(Value::Null), true) => {
+                return Err(format!("the argument `{name}` is missing: {text}"));
+            }
             (Some(_), _) => return Err(format!("the argument `{name}` is a text: {text}")),
         }
     }
@@ -141,7 +164,9 @@ pub(crate) fn get(name: &str, given: Option<&Map<String, Value>>) -> Result<Valu
 fn filled(mut body: &str, values: &[(String, &str)]) -> String {
     let mut out = String::new();
     loop {
-        let places = values.iter().filter_map(|(name, value)| Some((body.find(name.as_str())?, name, value)));
+        let places = values
+            .iter()
+            .filter_map(|(name, value)| Some((body.find(name.as_str())?, name, value)));
         let Some((at, name, value)) = places.min_by_key(|(at, ..)| *at) else {
             out.push_str(body);
             return out;
@@ -161,13 +186,25 @@ mod tests {
     fn every_argument_is_in_its_prompt_and_values_stay_as_they_are() {
         for prompt in &ALL {
             for (name, ..) in prompt.arguments {
-                assert!(prompt.body.contains(&format!("{{{name}}}")), "{}: {name}", prompt.name);
+                assert!(
+                    prompt.body.contains(&format!("{{{name}}}")),
+                    "{}: {name}",
+                    prompt.name
+                );
             }
         }
         let given = json!({ "old": "{new}", "new": "b.il" });
         let text = get("review-change", given.as_object()).unwrap().to_string();
         assert!(text.contains("from `{new}` to `b.il`"), "{text}");
-        assert!(get("write-tests", None).unwrap_err().contains("`path` is missing"));
-        assert!(get("nothing", None).unwrap_err().contains("prove-interlock"));
+        assert!(
+            get("write-tests", None)
+                .unwrap_err()
+                .contains("`path` is missing")
+        );
+        assert!(
+            get("nothing", None)
+                .unwrap_err()
+                .contains("prove-interlock")
+        );
     }
 }

@@ -56,7 +56,8 @@ impl Fault {
 
     /// A mistake in this server.
     pub(crate) fn own() -> Self {
-        let why = "this request made rungc fail; it can answer others; please report what you asked for";
+        let why =
+            "this request made rungc fail; it can answer others; please report what you asked for";
         Fault::new(-32603, why)
     }
 
@@ -86,7 +87,10 @@ impl Fault {
         supported.extend(HANDSHAKE);
         Fault {
             data: Some(json!({ "supported": supported, "requested": clipped(requested) })),
-            ..Fault::new(-32022, format!("version `{}` is not supported", clipped(requested)))
+            ..Fault::new(
+                -32022,
+                format!("version `{}` is not supported", clipped(requested)),
+            )
         }
     }
 }
@@ -147,7 +151,9 @@ pub(crate) fn message(value: Value) -> Result<Message, (Value, Fault)> {
     if message.get("jsonrpc") != Some(&json!("2.0")) {
         return wrong("a message has \"jsonrpc\": \"2.0\"");
     }
-    if !message.contains_key("method") && (message.contains_key("result") || message.contains_key("error")) {
+    if !message.contains_key("method")
+        && (message.contains_key("result") || message.contains_key("error"))
+    {
         return Ok(Message::Answer);
     }
     let Some(Value::String(method)) = message.remove("method") else {
@@ -214,18 +220,31 @@ mod tests {
     #[test]
     fn what_is_not_a_message_is_answered_with_its_identifier() {
         let id = |value: Value| message(value).err().map(|(id, _)| id);
-        for wrong in [json!(7), json!([]), json!("a"), Value::Null, json!({}), json!({ "jsonrpc": "1.0" })] {
+        for wrong in [
+            json!(7),
+            json!([]),
+            json!("a"),
+            Value::Null,
+            json!({}),
+            json!({ "jsonrpc": "1.0" }),
+        ] {
             assert_eq!(id(wrong.clone()), Some(Value::Null), "{wrong}");
         }
         let request = |id: Value| json!({ "jsonrpc": "2.0", "id": id, "method": "ping" });
         assert_eq!(id(request(json!(null))), Some(Value::Null));
         assert_eq!(id(request(json!(1.5))), Some(Value::Null));
-        assert_eq!(id(json!({ "jsonrpc": "2.0", "id": "a", "method": 5 })), Some(json!("a")));
+        assert_eq!(
+            id(json!({ "jsonrpc": "2.0", "id": "a", "method": 5 })),
+            Some(json!("a"))
+        );
         assert_eq!(
             id(json!({ "jsonrpc": "2.0", "id": 2, "method": "ping", "params": [1] })),
             Some(json!(2))
         );
-        assert!(matches!(message(request(json!(-3))), Ok(Message::Request(_))));
+        assert!(matches!(
+            message(request(json!(-3))),
+            Ok(Message::Request(_))
+        ));
         let answer = json!({ "jsonrpc": "2.0", "id": 1, "result": {} });
         assert!(matches!(message(answer), Ok(Message::Answer)));
     }

@@ -7,17 +7,41 @@ use rungc_syntax::codes;
 use serde_json::{Value, json};
 
 /// Characters of a name that an address holds in another form: `LD>=`.
-const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'_').remove(b'.').remove(b'~');
+const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC
+    .remove(b'-')
+    .remove(b'_')
+    .remove(b'.')
+    .remove(b'~');
 
 const GUIDE: &str = "rungc://guide";
 
 /// Kinds of pages by topic: first part of the address, title, description.
 const TOPICS: [(&str, &str, &str); 5] = [
-    ("instruction", "Instruction", "operands, forms, steps, flags, errors, an example: rungc://instruction/MOV"),
-    ("diagnostic", "Diagnostic", "what a code means, with a wrong and a right program: rungc://diagnostic/W0203"),
-    ("special-device", "Special device", "meaning of a special relay or register: rungc://special-device/M8013"),
-    ("model", "PLC model", "devices and limits of a model: rungc://model/fx3u"),
-    ("plc-error", "Error code of a PLC", "what a PLC means by it: rungc://plc-error/6706"),
+    (
+        "instruction",
+        "Instruction",
+        "operands, forms, steps, flags, errors, an example: rungc://instruction/MOV",
+    ),
+    (
+        "diagnostic",
+        "Diagnostic",
+        "what a code means, with a wrong and a right program: rungc://diagnostic/W0203",
+    ),
+    (
+        "special-device",
+        "Special device",
+        "meaning of a special relay or register: rungc://special-device/M8013",
+    ),
+    (
+        "model",
+        "PLC model",
+        "devices and limits of a model: rungc://model/fx3u",
+    ),
+    (
+        "plc-error",
+        "Error code of a PLC",
+        "what a PLC means by it: rungc://plc-error/6706",
+    ),
 ];
 
 fn entry(uri: String, title: &str, description: &str, mime: &str) -> Value {
@@ -44,7 +68,12 @@ pub(crate) fn list(options: &Options) -> Vec<Value> {
                 "book" => "text/markdown",
                 _ => mime(text.name),
             };
-            entry(format!("rungc://{kind}/{}", text.name), text.title, text.title, mime)
+            entry(
+                format!("rungc://{kind}/{}", text.name),
+                text.title,
+                text.title,
+                mime,
+            )
         };
         texts.map(entry).collect()
     };
@@ -69,9 +98,8 @@ pub(crate) fn list(options: &Options) -> Vec<Value> {
 
 /// Addresses with a part that a client fills in.
 pub(crate) fn templates() -> Vec<Value> {
-    let template = |uri: String, name: &str, title: &str, text: &str| {
-        json!({ "uriTemplate": uri, "name": name, "title": title, "description": text, "mimeType": "text/plain" })
-    };
+    let template = |uri: String, name: &str, title: &str, text: &str| json!({ "uriTemplate": uri, "name": \
+    name, "title": title, "description": text, "mimeType": "text/plain" });
     let topics = TOPICS.iter();
     let mut all: Vec<Value> = topics
         .map(|(kind, title, text)| template(format!("rungc://{kind}/{{name}}"), kind, title, text))
@@ -105,15 +133,31 @@ fn contents(options: &Options, uri: &str) -> Result<(&'static str, String), Stri
     if uri == GUIDE {
         return Ok(("text/markdown", options.guide.to_owned()));
     }
-    let unknown = || format!("there is no `{}`; `resources/list` names all", crate::protocol::clipped(uri));
+    let unknown = || {
+        format!(
+            "there is no `{}`; `resources/list` names all",
+            crate::protocol::clipped(uri)
+        )
+    };
     let rest = uri.strip_prefix("rungc://").ok_or_else(unknown)?;
     let (kind, name) = rest.split_once('/').ok_or_else(unknown)?;
-    let name = percent_decode_str(name).decode_utf8().map_err(|_| unknown())?;
+    let name = percent_decode_str(name)
+        .decode_utf8()
+        .map_err(|_| unknown())?;
     let name = &*name;
-    let text = |texts: &[Text]| texts.iter().find(|text| text.name == name).map(|text| text.text.to_owned());
+    let text = |texts: &[Text]| {
+        texts
+            .iter()
+            .find(|text| text.name == name)
+            .map(|text| text.text.to_owned())
+    };
     match kind {
-        "book" => text(&options.pages).map(|text| ("text/markdown", text)).ok_or_else(unknown),
-        "example" => text(&options.examples).map(|text| (mime(name), text)).ok_or_else(unknown),
+        "book" => text(&options.pages)
+            .map(|text| ("text/markdown", text))
+            .ok_or_else(unknown),
+        "example" => text(&options.examples)
+            .map(|text| (mime(name), text))
+            .ok_or_else(unknown),
         "instruction" | "special-device" => {
             let (name, model) = match name.split_once('/') {
                 Some((name, model)) => (name, Some(plc(model)?)),
@@ -144,7 +188,9 @@ pub(crate) fn page(topic: &str, model: Option<Plc>) -> Result<String, String> {
     let of_function = || rungc_functions::page::of(&topic.trim().to_lowercase());
     let page = rungc::explain::page(topic, model).or_else(of_function);
     page.ok_or_else(|| {
-        let functions: Vec<&str> = rungc_functions::library::all().map(|function| function.name).collect();
+        let functions: Vec<&str> = rungc_functions::library::all()
+            .map(|function| function.name)
+            .collect();
         rungc::explain::unknown(topic.trim(), model, &functions)
     })
 }

@@ -12,10 +12,12 @@ use std::sync::atomic::AtomicBool;
 
 /// What a client's assistant reads about this server.
 const INSTRUCTIONS: &str = "\
-Reads, checks, runs, tests and proves programs of Mitsubishi FX-family PLCs (also Inovance H1U, H2U, H3U, HM). \
+Reads, checks, runs, tests and proves programs of Mitsubishi FX-family PLCs (also Inovance H1U, H2U, L01S, HM). \
 Read the resource rungc://guide before you write a program. Programs are files below the folders of this server \
-(argument `path`), or texts that you pass (argument `list`). After every change: `check`; then `run` or `test` shows what \
-the program does, and `verify` proves what it never does. Nothing is changed on disk or in a PLC unless there is a tool \
+(argument `path`), or texts that you pass (argument `list`). After every change: `check`; then `run` or \
+`test` shows what \
+the program does, and `verify` proves what it never does. Nothing is changed on disk or in a PLC unless \
+there is a tool \
 `write`. A verdict of `verify` holds under the assumptions that it lists: repeat them. None of this replaces \
 a safety assessment of the machine.";
 
@@ -53,7 +55,9 @@ impl<'o> Server<'o> {
     pub(crate) fn answer(&mut self, request: &Request, stop: &AtomicBool) -> Result<Value, Fault> {
         let method = request.method.as_str();
         let version = match request.version() {
-            Some(STATELESS) if method == "initialize" => return Err(Fault::unknown_version(STATELESS)),
+            Some(STATELESS) if method == "initialize" => {
+                return Err(Fault::unknown_version(STATELESS));
+            }
             Some(STATELESS) => STATELESS,
             Some(other) => return Err(Fault::unknown_version(other)),
             None if method == "initialize" => return self.initialize(&request.params),
@@ -76,7 +80,9 @@ impl<'o> Server<'o> {
 
     fn initialize(&mut self, params: &Map<String, Value>) -> Result<Value, Fault> {
         let Some(wanted) = params.get("protocolVersion").and_then(Value::as_str) else {
-            return Err(Fault::wrong_params("`protocolVersion` is missing, such as \"2025-11-25\""));
+            return Err(Fault::wrong_params(
+                "`protocolVersion` is missing, such as \"2025-11-25\"",
+            ));
         };
         let version = HANDSHAKE.into_iter().find(|version| *version == wanted);
         let version = version.unwrap_or(HANDSHAKE[0]);
@@ -109,10 +115,13 @@ impl<'o> Server<'o> {
             }
             "tools/call" => self.call(params, stop),
             "resources/list" => listed("resources", resources::list(self.options), params),
-            "resources/templates/list" => listed("resourceTemplates", resources::templates(), params),
+            "resources/templates/list" => {
+                listed("resourceTemplates", resources::templates(), params)
+            }
             "resources/read" => {
                 let uri = text(params, "uri")?;
-                resources::read(self.options, uri).map_err(|why| Fault::no_resource(uri, &why, version))
+                resources::read(self.options, uri)
+                    .map_err(|why| Fault::no_resource(uri, &why, version))
             }
             "prompts/list" => listed("prompts", prompts::list(), params),
             "prompts/get" => {
@@ -127,7 +136,10 @@ impl<'o> Server<'o> {
     /// The tools that this server offers.
     fn tools(&self) -> impl Iterator<Item = &'static Tool> + use<> {
         let can_write = self.files.can_write();
-        tools::ALL.iter().copied().filter(move |tool| can_write || !tool.writes)
+        tools::ALL
+            .iter()
+            .copied()
+            .filter(move |tool| can_write || !tool.writes)
     }
 
     fn call(&mut self, params: &Map<String, Value>, stop: &AtomicBool) -> Result<Value, Fault> {
@@ -135,7 +147,10 @@ impl<'o> Server<'o> {
         let Some(tool) = self.tools().find(|tool| tool.name == name) else {
             let near = did_you_mean(name, self.tools().map(|tool| tool.name));
             let hint = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-            return Err(Fault::wrong_params(format!("there is no tool `{}`{hint}", clipped(name))));
+            return Err(Fault::wrong_params(format!(
+                "there is no tool `{}`{hint}",
+                clipped(name)
+            )));
         };
         let given = match params.get("arguments") {
             None | Some(Value::Null) => Map::new(),
@@ -179,7 +194,9 @@ fn listed(name: &str, all: Vec<Value>, params: &Map<String, Value>) -> Result<Va
         Some(cursor) => {
             let number = cursor.as_str().and_then(|cursor| cursor.parse().ok());
             let number = number.filter(|number| *number <= all.len());
-            number.ok_or_else(|| Fault::wrong_params("this cursor is not one that the list has given"))?
+            number.ok_or_else(|| {
+                Fault::wrong_params("this cursor is not one that the list has given")
+            })?
         }
     };
     let (part, _, next) = crate::page::entries(all, offset, LISTED);

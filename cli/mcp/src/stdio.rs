@@ -1,6 +1,7 @@
 //! Messages by lines, and requests one after another.
 //!
-//! A thread reads, so that a request which runs or waits can be cancelled; it answers what is not a message, and `ping`.
+//! A thread reads, so that a request which runs or waits can be cancelled; it answers `ping`, and what is not a
+//! message.
 
 use crate::Options;
 use crate::protocol::{Fault, Message, Request, STATELESS, WITH_BATCHES, answer, message};
@@ -23,7 +24,11 @@ const MAX_WAITING: usize = 256;
 ///
 /// # Errors
 /// A folder of the options that does not exist; output that cannot be written.
-pub fn serve(input: impl Read + Send, output: impl Write + Send, options: &Options) -> io::Result<()> {
+pub fn serve(
+    input: impl Read + Send,
+    output: impl Write + Send,
+    options: &Options,
+) -> io::Result<()> {
     let mut server = Server::new(options)?;
     let line = Line::new(output);
     thread::scope(|scope| {
@@ -107,7 +112,10 @@ impl<W: Write> Line<W> {
             if waiting.is_closed {
                 return None;
             }
-            waiting = self.changed.wait(waiting).unwrap_or_else(PoisonError::into_inner);
+            waiting = self
+                .changed
+                .wait(waiting)
+                .unwrap_or_else(PoisonError::into_inner);
         }
     }
 
@@ -126,7 +134,9 @@ impl<W: Write> Line<W> {
         match work {
             Work::One(request) => self.respond(request, server),
             Work::Batch(_) if !server.takes_batches() => {
-                let why = format!("several messages in an array are part of version {WITH_BATCHES} alone");
+                let why = format!(
+                    "several messages in an array are part of version {WITH_BATCHES} alone"
+                );
                 Some(answer(&Value::Null, Err(Fault::not_a_message(why))))
             }
             Work::Batch(all) => {
@@ -154,7 +164,9 @@ impl<W: Write> Line<W> {
     fn read(&self, mut input: impl BufRead) -> io::Result<()> {
         loop {
             let mut line = Vec::new();
-            (&mut input).take(MAX_LINE + 1).read_until(b'\n', &mut line)?;
+            (&mut input)
+                .take(MAX_LINE + 1)
+                .read_until(b'\n', &mut line)?;
             if line.is_empty() {
                 return Ok(());
             }
@@ -184,7 +196,9 @@ impl<W: Write> Line<W> {
             }
             Ok(Value::Array(all)) => self.batch(all),
             Ok(value) => match self.sorted(value) {
-                Some(Ok(request)) if request.method == "ping" && request.version() != Some(STATELESS) => {
+                Some(Ok(request))
+                    if request.method == "ping" && request.version() != Some(STATELESS) =>
+                {
                     self.send(&answer(&request.id, Ok(json!({}))))
                 }
                 Some(Ok(request)) => self.take(Work::One(request)),
@@ -195,7 +209,10 @@ impl<W: Write> Line<W> {
     }
 
     fn batch(&self, all: Vec<Value>) -> io::Result<()> {
-        let work: Vec<_> = all.into_iter().filter_map(|value| self.sorted(value)).collect();
+        let work: Vec<_> = all
+            .into_iter()
+            .filter_map(|value| self.sorted(value))
+            .collect();
         match work.is_empty() {
             true => Ok(()),
             false => self.take(Work::Batch(work)),
@@ -207,7 +224,9 @@ impl<W: Write> Line<W> {
         match message(value) {
             Ok(Message::Request(request)) => Some(Ok(request)),
             Ok(Message::Notification { method, params }) => {
-                if let ("notifications/cancelled", Some(id)) = (method.as_str(), params.get("requestId")) {
+                if let ("notifications/cancelled", Some(id)) =
+                    (method.as_str(), params.get("requestId"))
+                {
                     self.cancel(id);
                 }
                 None
@@ -228,7 +247,9 @@ impl<W: Write> Line<W> {
                 all.retain(|one| !matches!(one, Ok(request) if request.id == *id));
             }
         }
-        waiting.queue.retain(|work| !matches!(work, Work::One(request) if request.id == *id));
+        waiting
+            .queue
+            .retain(|work| !matches!(work, Work::One(request) if request.id == *id));
     }
 
     fn take(&self, work: Work) -> io::Result<()> {
@@ -252,7 +273,11 @@ impl Work {
     fn ids(&self) -> Vec<Value> {
         match self {
             Work::One(request) => vec![request.id.clone()],
-            Work::Batch(all) => all.iter().flatten().map(|request| request.id.clone()).collect(),
+            Work::Batch(all) => all
+                .iter()
+                .flatten()
+                .map(|request| request.id.clone())
+                .collect(),
         }
     }
 }

@@ -112,8 +112,8 @@ fn language(text: &str) -> Option<(Language, Span)> {
     (at_once || often).then_some((language, span))
 }
 
-/// Returns true if a line looks like an instruction of an FX list, though it may have mistakes: `LD X000`, `OUTT T0 K10`,
-/// `MOV D0`.
+/// Returns true if a line looks like an instruction of an FX list, though it may have mistakes: `LD X000`,
+/// `OUTT T0 K10`, `MOV D0`.
 fn is_of_list(line: &str) -> bool {
     let mut words = line.split_whitespace();
     let (Some(word), Some(operand)) = (words.next(), words.next()) else {
@@ -216,8 +216,16 @@ mod tests {
         let list = "LD X0\nTON T0 K30\nLD X1\nOUT Y1\nIF M0\nOUT %QX0.0\nEND\n";
         assert!(detect("a.il", list).is_none());
         let mistakes = "LDD X1\nOUT Y9\nMOV D0\nOUT M99999\nSETT M0\nEND\n";
-        for foreign in ["IF X0 THEN\n", "VAR\n", "Y0 := X0\n", "LD X0\nTON T1 K5\nIF X0 THEN\n"] {
-            assert!(detect("a.il", &format!("{foreign}{mistakes}")).is_none(), "{foreign}");
+        for foreign in [
+            "IF X0 THEN\n",
+            "VAR\n",
+            "Y0 := X0\n",
+            "LD X0\nTON T1 K5\nIF X0 THEN\n",
+        ] {
+            assert!(
+                detect("a.il", &format!("{foreign}{mistakes}")).is_none(),
+                "{foreign}"
+            );
         }
         assert!(detect("a.st", "IF X0 THEN\nLD X0\nOUT Y0\nEND_IF\n").is_some());
         assert!(detect("a.il", "LD start\nIF X0\nY0 := X0\nEND\n").is_some());

@@ -46,7 +46,8 @@ impl Behaviour {
     pub fn in_words(&self, proved: Option<String>) -> Vec<String> {
         let (devices, hardware) = match self {
             Behaviour::Same => {
-                let same = "Same behaviour: with the same inputs, all devices have the same values.";
+                let same =
+                    "Same behaviour: with the same inputs, all devices have the same values.";
                 return vec![same.to_string()];
             }
             Behaviour::Undecided(why) => return vec![format!("Behaviour not decided: {why}.")],

@@ -124,10 +124,7 @@ impl Reader<'_> {
     ///
     /// # Errors
     /// Description of the mistake, and the part that it is in.
-    pub fn property<'k>(
-        &self,
-        kind: &'k PropertyKind,
-    ) -> Result<Property, (&'k Named, String)> {
+    pub fn property<'k>(&self, kind: &'k PropertyKind) -> Result<Property, (&'k Named, String)> {
         let condition = |named: &'k Named| {
             let parsed = self.condition(&named.text);
             parsed.map_err(|error| (named, error.why))

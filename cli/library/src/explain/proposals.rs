@@ -30,7 +30,8 @@ pub fn unknown(topic: &str, plc: Option<Plc>, others: &[&str]) -> String {
     }
     let hint = near_name(topic, &upper, others).map(|near| format!("; did you mean `{near}`?"));
     format!(
-        "`{topic}` is not a diagnostic code, PLC error code, instruction, special device, model, safety function or page of the book{}",
+        "`{topic}` is not a diagnostic code, PLC error code, instruction, special device, model, safety \
+        function or page of the book{}",
         hint.unwrap_or_default()
     )
 }
@@ -106,10 +107,7 @@ fn near_name(topic: &str, upper: &str, others: &[&str]) -> Option<String> {
     let models = ModelId::ALL.map(|id| Model::get(id).name);
     let others = others.iter().copied();
     let in_upper = diag::did_you_mean(upper, in_upper.iter().map(String::as_str));
-    let in_lower = diag::did_you_mean(
-        &lower,
-        titles.chain(variants).chain(models).chain(others),
-    );
+    let in_lower = diag::did_you_mean(&lower, titles.chain(variants).chain(models).chain(others));
     let far = |near: &str| diag::distance(&lower, &near.to_lowercase(), upper.len());
     let found = in_upper.into_iter().chain(in_lower);
     found.min_by_key(|near| far(near)).map(str::to_owned)

@@ -14,8 +14,10 @@ const LEVEL: Parameter = Parameter::optional(
 pub(super) const TOOL: Tool = Tool {
     name: "check",
     title: "Check a program",
-    text: "Finds all that is wrong with a program: errors, warnings and notes with code, place (line and column, or step), \
-           help, and a fix where one is known. Call it after every change. `explain` describes a code. `list` checks a text \
+    text: "Finds all that is wrong with a program: errors, warnings and notes with code, place (line and \
+    column, or step), \
+           help, and a fix where one is known. Call it after every change. `explain` describes a code. \
+           `list` checks a text \
            that is not in a file.",
     parameters: &[PROGRAM, &[LEVEL, OFFSET]],
     output,
@@ -41,7 +43,13 @@ fn call(call: &mut Call) -> Result<Answer, String> {
     let project = call.project()?;
     let checked = project.check();
     let file = call.name(&project);
-    let count = |name: &str| checked.diagnostics.iter().filter(|found| found.severity.name() == name).count();
+    let count = |name: &str| {
+        checked
+            .diagnostics
+            .iter()
+            .filter(|found| found.severity.name() == name)
+            .count()
+    };
     let (errors, warnings, notes) = (count("error"), count("warning"), count("note"));
     let listed: &[&str] = match call.arguments.text("level") {
         Some("error") => &["error"],
@@ -71,7 +79,10 @@ fn call(call: &mut Call) -> Result<Answer, String> {
         data["next_offset"] = json!(next);
     }
     let title = checked.model.title;
-    let mut text = format!("{file} ({title}, {} steps): {errors} errors, {warnings} warnings, {notes} notes\n", checked.steps);
+    let mut text = format!(
+        "{file} ({title}, {} steps): {errors} errors, {warnings} warnings, {notes} notes\n",
+        checked.steps
+    );
     for found in &part {
         text.push_str(&format!("{found}\n"));
     }

@@ -31,8 +31,10 @@ const PARAMETERS: &[Parameter] = &[
 pub(super) const TOOL: Tool = Tool {
     name: "diff",
     title: "Compare two programs",
-    text: "Compares two programs network by network, also of different formats: changed, added, removed and moved networks as \
-           ladder, comments of devices, settings. With `semantic`, which devices can behave differently. Long answers come in \
+    text: "Compares two programs network by network, also of different formats: changed, added, removed and \
+    moved networks as \
+           ladder, comments of devices, settings. With `semantic`, which devices can behave differently. \
+           Long answers come in \
            parts: pass `offset`.",
     parameters: &[PARAMETERS],
     output,
@@ -60,12 +62,17 @@ fn call(call: &mut Call) -> Result<Answer, String> {
         let project = call.open(path, &options)?;
         match project.source().is_complete() {
             true => Ok(project),
-            false => Err(format!("`{path}` cannot be read whole, so it is not compared; `check` says why")),
+            false => Err(format!(
+                "`{path}` cannot be read whole, so it is not compared; `check` says why"
+            )),
         }
     };
     let sides = [side("old")?, side("new")?];
     let [old, new] = &sides;
-    let resolved = [resolve(old.source(), old.model()).0, resolve(new.source(), new.model()).0];
+    let resolved = [
+        resolve(old.source(), old.model()).0,
+        resolve(new.source(), new.model()).0,
+    ];
     let ladders = [build::ladder(&resolved[0]), build::ladder(&resolved[1])];
     let drawn = [0, 1].map(|side| Drawn {
         resolved: &resolved[side],
@@ -120,7 +127,8 @@ fn of_both(old: &Project, new: &Project) -> Behaviour {
 }
 
 fn module(project: &Project) -> Option<Module> {
-    let options = rungc::settings::compiling(project.settings(), project.file(), Some(project.plc()), &[]);
+    let options =
+        rungc::settings::compiling(project.settings(), project.file(), Some(project.plc()), &[]);
     let mut module = compile(project.source(), &options).module?;
     simplify(&mut module);
     Some(module)

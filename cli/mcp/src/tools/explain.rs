@@ -9,17 +9,23 @@ const PARAMETERS: &[Parameter] = &[
     Parameter::required(
         "topic",
         Kind::Text,
-        "an instruction (MOV, LD>=), a code of a finding (W0203), a special device (M8013), an error code of a PLC (6706), \
+        "an instruction (MOV, LD>=), a code of a finding (W0203), a special device (M8013), an error code \
+        of a PLC (6706), \
          a model (fx3u), a safety function (`functions` lists them), or a page of the book (test-files)",
     ),
-    Parameter::optional("model", Kind::Text, "the PLC that it is explained for, such as `fx3u`; default: all"),
+    Parameter::optional(
+        "model",
+        Kind::Text,
+        "the PLC that it is explained for, such as `fx3u`; default: all",
+    ),
     OFFSET,
 ];
 
 pub(super) const TOOL: Tool = Tool {
     name: "explain",
     title: "Explain an instruction, a code, a device",
-    text: "Explains an instruction with its operands, forms and errors, a code of a finding, a special device, a model or a \
+    text: "Explains an instruction with its operands, forms and errors, a code of a finding, a special \
+    device, a model or a \
            page of the book. Call it before you use an instruction or a special device that you are not certain of.",
     parameters: &[PARAMETERS],
     output,
@@ -33,7 +39,11 @@ fn output() -> Value {
 
 fn call(call: &mut Call) -> Result<Answer, String> {
     let topic = call.arguments.text("topic").unwrap_or_default().trim();
-    let model = call.arguments.text("model").map(resources::plc).transpose()?;
+    let model = call
+        .arguments
+        .text("model")
+        .map(resources::plc)
+        .transpose()?;
     let of_book = |why: String| {
         let mut pages = call.options.pages.iter();
         let page = pages.find(|page| page.name.eq_ignore_ascii_case(topic));

@@ -103,7 +103,9 @@ impl Call<'_> {
     }
 
     fn offset(&self) -> usize {
-        self.arguments.whole("offset").map_or(0, |offset| offset as usize)
+        self.arguments
+            .whole("offset")
+            .map_or(0, |offset| offset as usize)
     }
 
     /// The program that the arguments name.
@@ -117,7 +119,9 @@ impl Call<'_> {
             (None, Some(list)) => {
                 Project::from_list("list", list, &options).map_err(|error| error.to_string())
             }
-            (None, None) => Err("name the program: `path` of a file, or `list` with the text of one".to_owned()),
+            (None, None) => {
+                Err("name the program: `path` of a file, or `list` with the text of one".to_owned())
+            }
             (Some(_), Some(_)) => Err("name one program: `path` or `list`, not both".to_owned()),
         }
     }
@@ -163,7 +167,9 @@ fn compiled(project: &Project) -> Result<rungc::Program, String> {
             let shown: Vec<String> = errors.iter().take(MOST).map(ToString::to_string).collect();
             let count = errors.len();
             let shown = shown.join("\n");
-            format!("the program has {count} errors, so it does not run; `check` lists all:\n{shown}")
+            format!(
+                "the program has {count} errors, so it does not run; `check` lists all:\n{shown}"
+            )
         }
         error => error.to_string(),
     })
@@ -177,7 +183,10 @@ fn object(properties: &[(&str, Value)]) -> Value {
         .filter(|(name, _)| !name.ends_with('?'))
         .map(|(name, _)| plain(name))
         .collect();
-    let all: Map<String, Value> = properties.iter().map(|(name, schema)| (plain(name), schema.clone())).collect();
+    let all: Map<String, Value> = properties
+        .iter()
+        .map(|(name, schema)| (plain(name), schema.clone()))
+        .collect();
     json!({ "type": "object", "properties": all, "required": required })
 }
 
@@ -203,7 +212,11 @@ fn anything() -> Value {
 
 /// Properties of an answer in parts.
 fn paged() -> [(&'static str, Value); 3] {
-    [("total", integer()), ("offset", integer()), ("next_offset?", integer())]
+    [
+        ("total", integer()),
+        ("offset", integer()),
+        ("next_offset?", integer()),
+    ]
 }
 
 /// Schema of an answer with a text in parts.

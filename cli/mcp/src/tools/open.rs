@@ -5,8 +5,8 @@ use crate::page::{self, ENTRIES};
 use rungc_analysis::resolve::resolve;
 use rungc_analysis::xref::CrossReference;
 use rungc_ladder::build;
-use rungc_syntax::text::one_line;
 use rungc_syntax::DeviceClass;
+use rungc_syntax::text::one_line;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -14,7 +14,8 @@ use std::fmt::Write;
 pub(super) const TOOL: Tool = Tool {
     name: "open",
     title: "What a program is",
-    text: "Says what a program file is: format, PLC model, size, which devices it uses, and the names (comments) of its \
+    text: "Says what a program file is: format, PLC model, size, which devices it uses, and the names \
+    (comments) of its \
            devices. Call it first. Lists of names are in parts: pass `offset`.",
     parameters: &[PROGRAM, &[OFFSET]],
     output,
@@ -36,8 +37,14 @@ fn output() -> Value {
         ("networks", integer()),
         ("errors", integer()),
         ("warnings", integer()),
-        ("devices", json!({ "type": "object", "additionalProperties": { "type": "integer" } })),
-        ("names", list(object(&[("device", string()), ("name", string())]))),
+        (
+            "devices",
+            json!({ "type": "object", "additionalProperties": { "type": "integer" } }),
+        ),
+        (
+            "names",
+            list(object(&[("device", string()), ("name", string())])),
+        ),
     ];
     all.extend(paged());
     object(&all)
@@ -79,7 +86,12 @@ fn call(call: &mut Call) -> Result<Answer, String> {
     };
     add("cpu", program.cpu.as_ref().map(ToString::to_string));
     add("title", program.title.as_ref().map(ToString::to_string));
-    add("settings", project.settings().map(|settings| call.files.shown(&settings.path)));
+    add(
+        "settings",
+        project
+            .settings()
+            .map(|settings| call.files.shown(&settings.path)),
+    );
     if let Some(next) = next {
         data["next_offset"] = json!(next);
     }
@@ -96,24 +108,52 @@ fn used(xref: &CrossReference) -> Value {
         *used.entry(row.first.class).or_default() += row.last.number - row.first.number + 1;
     }
     let used = used.into_iter();
-    Value::Object(used.map(|(class, count)| (class.prefix().to_owned(), json!(count))).collect())
+    Value::Object(
+        used.map(|(class, count)| (class.prefix().to_owned(), json!(count)))
+            .collect(),
+    )
 }
 
 fn text(data: &Value, next: Option<usize>, total: usize) -> String {
     let mut out = String::new();
-    let plain = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
-    for name in ["file", "format", "title", "cpu", "model_title", "settings", "instructions", "steps", "networks"] {
+    let plain = |value: &Value| {
+        value
+            .as_str()
+            .map_or_else(|| value.to_string(), str::to_owned)
+    };
+    for name in [
+        "file",
+        "format",
+        "title",
+        "cpu",
+        "model_title",
+        "settings",
+        "instructions",
+        "steps",
+        "networks",
+    ] {
         if let Some(value) = data.get(name) {
             let _ = writeln!(out, "{}: {}", name.replace('_', " "), plain(value));
         }
     }
-    let _ = writeln!(out, "findings: {} errors, {} warnings (`check` lists them)", data["errors"], data["warnings"]);
+    let _ = writeln!(
+        out,
+        "findings: {} errors, {} warnings (`check` lists them)",
+        data["errors"], data["warnings"]
+    );
     let devices = data["devices"].as_object().into_iter().flatten();
-    let devices: Vec<String> = devices.map(|(class, count)| format!("{class} {count}")).collect();
+    let devices: Vec<String> = devices
+        .map(|(class, count)| format!("{class} {count}"))
+        .collect();
     let _ = writeln!(out, "devices: {}", devices.join(", "));
     let _ = writeln!(out, "names: {total}");
     for name in data["names"].as_array().into_iter().flatten() {
-        let _ = writeln!(out, "  {} = {}", plain(&name["device"]), plain(&name["name"]));
+        let _ = writeln!(
+            out,
+            "  {} = {}",
+            plain(&name["device"]),
+            plain(&name["name"])
+        );
     }
     out + &page::remark(next, total, "names")
 }

@@ -23,7 +23,8 @@ const LIMIT: Duration = Duration::from_secs(60);
 pub(super) const INPUTS: Parameter = Parameter::optional(
     "inputs",
     Kind::Inputs,
-    "what is set when, in virtual time: [{\"at_ms\": 0, \"set\": {\"X000\": true}}, {\"at_ms\": 500, \"set\": {\"X000\": false}}]; \
+    "what is set when, in virtual time: [{\"at_ms\": 0, \"set\": {\"X000\": true}}, {\"at_ms\": 500, \
+    \"set\": {\"X000\": false}}]; \
      inputs keep their state; names are devices or comments",
 );
 
@@ -32,18 +33,25 @@ const PARAMETERS: &[Parameter] = &[
     Parameter::optional(
         "watch",
         Kind::Texts,
-        "devices whose values are shown, such as [\"Y000\", \"T0\", \"D0.i32\", \"D2.f32\", \"start button\"]; default: outputs \
+        "devices whose values are shown, such as [\"Y000\", \"T0\", \"D0.i32\", \"D2.f32\", \"start \
+        button\"]; default: outputs \
          and what the program writes",
     ),
-    Parameter::optional("for_ms", Kind::Whole(1, 3_600_000), "length of the run in milliseconds; default: 1000"),
+    Parameter::optional(
+        "for_ms",
+        Kind::Whole(1, 3_600_000),
+        "length of the run in milliseconds; default: 1000",
+    ),
     OFFSET,
 ];
 
 pub(super) const TOOL: Tool = Tool {
     name: "run",
     title: "Run a program",
-    text: "Runs a program in virtual time on the reference interpreter, from power-on, with inputs that you set, and shows the \
-           values of devices after each scan in which one of them changed. A scan takes 10 ms unless the program says \
+    text: "Runs a program in virtual time on the reference interpreter, from power-on, with inputs that you \
+    set, and shows the \
+           values of devices after each scan in which one of them changed. A scan takes 10 ms unless the \
+           program says \
            otherwise. The same call gives the same run. Special modules and simulated machines are for `test`.",
     parameters: &[PROGRAM, PARAMETERS],
     output,
@@ -55,7 +63,10 @@ fn output() -> Value {
     let mut all = vec![
         ("file", string()),
         ("watched", list(string())),
-        ("rows", list(object(&[("at_ms", integer()), ("values", anything())]))),
+        (
+            "rows",
+            list(object(&[("at_ms", integer()), ("values", anything())])),
+        ),
         ("ended_ms", integer()),
         ("running", json!({ "type": "boolean" })),
         ("operation_errors", list(anything())),
@@ -135,15 +146,24 @@ pub(super) fn until(
             return Err("the call was cancelled".to_owned());
         }
         if begin.elapsed() > LIMIT {
-            return Err(format!("the run was ended at {now_ms} ms: it took a minute; ask for a shorter `for_ms`"));
+            return Err(format!(
+                "the run was ended at {now_ms} ms: it took a minute; ask for a shorter `for_ms`"
+            ));
         }
-        let next = pending.first().map_or(end_ms, |input| input.at_ms.min(end_ms));
+        let next = pending
+            .first()
+            .map_or(end_ms, |input| input.at_ms.min(end_ms));
         let scan_ms = plc.until_next_scan().as_millis() as u64;
-        plc.run_for(Duration::from_millis(scan_ms.clamp(1, (next - now_ms).max(1))));
+        plc.run_for(Duration::from_millis(
+            scan_ms.clamp(1, (next - now_ms).max(1)),
+        ));
         scanned(plc, now_ms)?;
     }
     match pending.first() {
-        Some(late) => Err(format!("`inputs`: {} ms is after the end of the run, {end_ms} ms", late.at_ms)),
+        Some(late) => Err(format!(
+            "`inputs`: {} ms is after the end of the run, {end_ms} ms",
+            late.at_ms
+        )),
         None => Ok(()),
     }
 }
@@ -167,7 +187,11 @@ fn set(plc: &mut Plc, input: &Input) -> Result<(), String> {
 fn watched(call: &Call, plc: &mut Plc, inputs: &[Input]) -> Result<Vec<String>, String> {
     let named = call.arguments.texts("watch");
     if named.is_empty() {
-        let set: Vec<&str> = inputs.iter().flat_map(|input| &input.set).map(|(name, _)| name.as_str()).collect();
+        let set: Vec<&str> = inputs
+            .iter()
+            .flat_map(|input| &input.set)
+            .map(|(name, _)| name.as_str())
+            .collect();
         return Ok(plc.usual_watch(USUAL, &set));
     }
     if named.len() > MOST_WATCHED {
@@ -178,7 +202,9 @@ fn watched(call: &Call, plc: &mut Plc, inputs: &[Input]) -> Result<Vec<String>, 
 }
 
 fn values(plc: &Plc, names: &[String]) -> Result<Vec<Reading>, String> {
-    let values = names.iter().map(|name| plc.get(name).map_err(|error| format!("`watch`: {error}")));
+    let values = names
+        .iter()
+        .map(|name| plc.get(name).map_err(|error| format!("`watch`: {error}")));
     values.collect()
 }
 
@@ -205,7 +231,9 @@ fn answer(file: &str, watched: &[String], rows: &Rows, plc: &Plc) -> Answer {
     let next = (end < rows.total).then_some(end);
     let shown = rows.shown.iter().map(|(at_ms, values)| {
         let values = watched.iter().zip(values);
-        let values: Map<String, Value> = values.map(|(name, value)| (name.clone(), json_of(value))).collect();
+        let values: Map<String, Value> = values
+            .map(|(name, value)| (name.clone(), json_of(value)))
+            .collect();
         json!({ "at_ms": at_ms, "values": values })
     });
     let errors = plc.errors().iter().map(|error| {
@@ -234,22 +262,40 @@ fn answer(file: &str, watched: &[String], rows: &Rows, plc: &Plc) -> Answer {
 fn table(watched: &[String], rows: &Rows, plc: &Plc) -> String {
     let cells = rows.shown.iter().map(|(at_ms, values)| {
         let values = values.iter().map(text_of);
-        std::iter::once(at_ms.to_string()).chain(values).collect::<Vec<_>>()
+        std::iter::once(at_ms.to_string())
+            .chain(values)
+            .collect::<Vec<_>>()
     });
-    let head = std::iter::once("ms".to_owned()).chain(watched.iter().cloned()).collect();
+    let head = std::iter::once("ms".to_owned())
+        .chain(watched.iter().cloned())
+        .collect();
     let lines: Vec<Vec<String>> = std::iter::once(head).chain(cells).collect();
-    let width = |column: usize| lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0);
+    let width = |column: usize| {
+        lines
+            .iter()
+            .map(|line| line[column].chars().count())
+            .max()
+            .unwrap_or(0)
+    };
     let widths: Vec<usize> = (0..=watched.len()).map(width).collect();
     let mut text = String::new();
     for line in &lines {
-        let cells = line.iter().zip(&widths).map(|(cell, width)| format!("{cell:>width$}"));
+        let cells = line
+            .iter()
+            .zip(&widths)
+            .map(|(cell, width)| format!("{cell:>width$}"));
         text.push_str(&cells.collect::<Vec<_>>().join("  "));
         text.push('\n');
     }
-    text.push_str(&format!("end of the run: {} ms; values are those after the scan that begins then\n", plc.now().as_millis()));
+    text.push_str(&format!(
+        "end of the run: {} ms; values are those after the scan that begins then\n",
+        plc.now().as_millis()
+    ));
     for error in plc.errors().iter().take(ROWS) {
         let (code, step, times, first) = (error.code, error.step, error.times, error.first_ms);
-        text.push_str(&format!("operation error {code} at step {step}, {times} times, first at {first} ms\n"));
+        text.push_str(&format!(
+            "operation error {code} at step {step}, {times} times, first at {first} ms\n"
+        ));
     }
     if !plc.is_running() {
         text.push_str("the PLC is in STOP\n");

@@ -10,20 +10,30 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 const PARAMETERS: &[Parameter] = &[
-    Parameter::optional("path", Kind::Text, "the test file, such as `press.plctest.toml`"),
+    Parameter::optional(
+        "path",
+        Kind::Text,
+        "the test file, such as `press.plctest.toml`",
+    ),
     Parameter::optional(
         "text",
         Kind::Text,
-        "instead of `path`: the text of a test file; programs and machines that it names are searched for from the first folder",
+        "instead of `path`: the text of a test file; programs and machines that it names are searched for \
+        from the first folder",
     ),
-    Parameter::optional("filter", Kind::Text, "run only cases whose name contains this text"),
+    Parameter::optional(
+        "filter",
+        Kind::Text,
+        "run only cases whose name contains this text",
+    ),
     OFFSET,
 ];
 
 pub(super) const TOOL: Tool = Tool {
     name: "test",
     title: "Run test cases",
-    text: "Runs the cases of a PLC test file (rungc://book/test-files describes the format) on the reference interpreter and \
+    text: "Runs the cases of a PLC test file (rungc://book/test-files describes the format) on the \
+    reference interpreter and \
            says which fail, with expected and actual values. `text` runs cases that are not in a file.",
     parameters: &[PARAMETERS],
     output,
@@ -39,7 +49,11 @@ fn output() -> Value {
         ("passed", boolean()),
         ("failure?", string()),
     ]);
-    let mut all = vec![("passed", integer()), ("failed", integer()), ("cases", list(case))];
+    let mut all = vec![
+        ("passed", integer()),
+        ("failed", integer()),
+        ("cases", list(case)),
+    ];
     all.extend(paged());
     object(&all)
 }
@@ -53,7 +67,9 @@ fn load(call: &Call) -> Result<TestFile, String> {
         }
         _ => return Err("name the cases: `path` of a test file, or `text` of one".to_owned()),
     };
-    loaded.map_err(|error| format!("the test file has mistakes (rungc://book/test-files describes it):\n{error}"))
+    loaded.map_err(|error| {
+        format!("the test file has mistakes (rungc://book/test-files describes it):\n{error}")
+    })
 }
 
 fn call(call: &mut Call) -> Result<Answer, String> {
@@ -68,10 +84,14 @@ fn call(call: &mut Call) -> Result<Answer, String> {
     let ready = prepare(EngineKind::Interp, suite.modules(), Path::new(""));
     let ready = ready.map_err(|error| error.to_string())?;
     let mut engine = ready.start();
-    let report = plctest::run(&suite, engine.as_mut(), &mut |_| match call.is_cancelled() {
-        true => ControlFlow::Break(()),
-        false => ControlFlow::Continue(()),
-    });
+    let report = plctest::run(
+        &suite,
+        engine.as_mut(),
+        &mut |_| match call.is_cancelled() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        },
+    );
     let (passed, failed) = (report.passed(), report.failures().count());
     // Failures first: they are what the call is about.
     let mut outcomes: Vec<_> = report.outcomes.iter().collect();

@@ -19,27 +19,55 @@ const PARAMETERS: &[Parameter] = &[
     Parameter::optional(
         "never",
         Kind::Texts,
-        "conditions that must never hold after a scan, such as [\"Y000 & Y001\", \"Y000 & !X003\", \"D0 > 100\"]; comments of \
+        "conditions that must never hold after a scan, such as [\"Y000 & Y001\", \"Y000 & !X003\", \"D0 > \
+        100\"]; comments of \
          devices are written in quotes",
     ),
-    Parameter::optional("always", Kind::Texts, "conditions that must hold after every scan, such as [\"Y000 -> X003\"]"),
-    Parameter::optional("reachable", Kind::Texts, "conditions that some run must reach, such as [\"Y000\"]"),
-    Parameter::optional("assume", Kind::Texts, "conditions that hold after every scan, such as [\"!(X001 & X002)\"]"),
+    Parameter::optional(
+        "always",
+        Kind::Texts,
+        "conditions that must hold after every scan, such as [\"Y000 -> X003\"]",
+    ),
+    Parameter::optional(
+        "reachable",
+        Kind::Texts,
+        "conditions that some run must reach, such as [\"Y000\"]",
+    ),
+    Parameter::optional(
+        "assume",
+        Kind::Texts,
+        "conditions that hold after every scan, such as [\"!(X001 & X002)\"]",
+    ),
     Parameter::optional(
         "free",
         Kind::Texts,
-        "devices that something outside writes although the program does, such as a panel: [\"M500\", \"D100..D109\"]",
+        "devices that something outside writes although the program does, such as a panel: [\"M500\", \
+        \"D100..D109\"]",
     ),
-    Parameter::optional("scan_ms", Kind::Whole(1, 32_767), "the longest time from one scan to the next; default: 200"),
-    Parameter::optional("cleared", Kind::Flag, "latched devices start at 0, as on a new PLC, instead of at any value"),
-    Parameter::optional("timeout_ms", Kind::Whole(1, 600_000), "time limit for each property; default: 60000"),
+    Parameter::optional(
+        "scan_ms",
+        Kind::Whole(1, 32_767),
+        "the longest time from one scan to the next; default: 200",
+    ),
+    Parameter::optional(
+        "cleared",
+        Kind::Flag,
+        "latched devices start at 0, as on a new PLC, instead of at any value",
+    ),
+    Parameter::optional(
+        "timeout_ms",
+        Kind::Whole(1, 600_000),
+        "time limit for each property; default: 60000",
+    ),
 ];
 
 pub(super) const TOOL: Tool = Tool {
     name: "verify",
     title: "Prove properties",
-    text: "Decides whether a program can ever do something, in any run from power-on with any inputs: proved, violated (with the \
-           shortest run found), or not decided. Without properties, those of rungc.toml. A proof is about the program under the \
+    text: "Decides whether a program can ever do something, in any run from power-on with any inputs: \
+    proved, violated (with the \
+           shortest run found), or not decided. Without properties, those of rungc.toml. A proof is about \
+           the program under the \
            listed assumptions: repeat them to the user. rungc://book/prove describes conditions.",
     parameters: &[PROGRAM, PARAMETERS],
     output,
@@ -50,7 +78,14 @@ pub(super) const TOOL: Tool = Tool {
 fn output() -> Value {
     object(&[
         ("file", string()),
-        ("results", list(object(&[("property", string()), ("verdict", string()), ("details", string())]))),
+        (
+            "results",
+            list(object(&[
+                ("property", string()),
+                ("verdict", string()),
+                ("details", string()),
+            ])),
+        ),
         ("assumptions", list(string())),
         ("warnings", list(string())),
     ])
@@ -65,18 +100,24 @@ struct Requested {
 fn call(call: &mut Call) -> Result<Answer, String> {
     let project = call.whole()?;
     super::compiled(&project)?;
-    let options = rungc::settings::compiling(project.settings(), project.file(), Some(project.plc()), &[]);
+    let options =
+        rungc::settings::compiling(project.settings(), project.file(), Some(project.plc()), &[]);
     let reader = Reader {
         program: project.source(),
         options: &options,
     };
-    let settings = project.settings().filter(|settings| settings.is_about(project.file()));
+    let settings = project
+        .settings()
+        .filter(|settings| settings.is_about(project.file()));
     let requested = requested(call, reader, settings)?;
     let assumed = assumed(call, reader, settings)?;
     let names = project.names();
     let free = call.arguments.texts("free");
     let free: Result<Vec<_>, String> = free.iter().map(|text| names.range(text.trim())).collect();
-    let external = ExternalWrites::of(Some(&free.map_err(|why| format!("`free`: {why}"))?), settings);
+    let external = ExternalWrites::of(
+        Some(&free.map_err(|why| format!("`free`: {why}"))?),
+        settings,
+    );
     let proving = proving(call, settings, &assumed, &external)?;
     let module = module(&project, options.clone(), &requested, &proving, &external)?;
     let mut decided = Vec::new();
@@ -87,27 +128,46 @@ fn call(call: &mut Call) -> Result<Answer, String> {
         decided.push(decide(&module, &one.property, &proving));
     }
     let assumed: Vec<String> = assumed.into_iter().map(|(text, _)| text).collect();
-    if decided.iter().any(|decision| decision.verdict == Verdict::Proved)
+    if decided
+        .iter()
+        .any(|decision| decision.verdict == Verdict::Proved)
         && let Some(why) = words::vacuous([&module], &proving, &assumed)
     {
-        for decision in decided.iter_mut().filter(|decision| decision.verdict == Verdict::Proved) {
+        for decision in decided
+            .iter_mut()
+            .filter(|decision| decision.verdict == Verdict::Proved)
+        {
             decision.proof = None;
             decision.verdict = Verdict::Undecided(why.clone());
         }
     }
-    let texts = requested.iter().map(|one| (one.text.as_str(), &one.property));
+    let texts = requested
+        .iter()
+        .map(|one| (one.text.as_str(), &one.property));
     let undriven = request::undriven(texts, project.source(), &options, &external);
     let undriven: Vec<String> = undriven.iter().map(|found| found.message.clone()).collect();
     let supposed = words::assumptions(&proving.world, &assumed, &external);
     let file = call.name(&project);
-    Ok(answer(&file, (&requested, &decided), (&module, &external), (supposed, undriven)))
+    Ok(answer(
+        &file,
+        (&requested, &decided),
+        (&module, &external),
+        (supposed, undriven),
+    ))
 }
 
 /// The properties of the arguments, else those of the settings.
-fn requested(call: &Call, reader: Reader, settings: Option<&Settings>) -> Result<Vec<Requested>, String> {
+fn requested(
+    call: &Call,
+    reader: Reader,
+    settings: Option<&Settings>,
+) -> Result<Vec<Requested>, String> {
     type Form = fn(Condition) -> Property;
-    let forms: [(&str, Form); 3] =
-        [("never", Property::Never), ("always", Property::Always), ("reachable", Property::Reachable)];
+    let forms: [(&str, Form); 3] = [
+        ("never", Property::Never),
+        ("always", Property::Always),
+        ("reachable", Property::Reachable),
+    ];
     let mut requested = Vec::new();
     for (name, form) in forms {
         for text in call.arguments.texts(name) {
@@ -132,7 +192,8 @@ fn requested(call: &Call, reader: Reader, settings: Option<&Settings>) -> Result
         for expanded in rows {
             let row = &expanded.row;
             let property = reader.property(&row.kind);
-            let property = property.map_err(|(named, why)| format!("rungc.toml: `{}`: {why}", named.text))?;
+            let property =
+                property.map_err(|(named, why)| format!("rungc.toml: `{}`: {why}", named.text))?;
             requested.push(Requested {
                 text: stated(row),
                 property,
@@ -140,7 +201,8 @@ fn requested(call: &Call, reader: Reader, settings: Option<&Settings>) -> Result
         }
     }
     match requested.is_empty() {
-        true => Err("no property: pass `never`, `always` or `reachable`, such as \"never\": [\"Y000 & Y001\"]".to_owned()),
+        true => Err("no property: pass `never`, `always` or `reachable`, such as \"never\": [\"Y000 & \
+        Y001\"]".to_owned()),
         false => Ok(requested),
     }
 }
@@ -148,7 +210,11 @@ fn requested(call: &Call, reader: Reader, settings: Option<&Settings>) -> Result
 /// A mistake in a condition, with its place.
 fn pointed(name: &str, text: &str, error: &ParseError) -> String {
     let before = text[..error.at.min(text.len())].chars().count();
-    format!("`{name}`: {}\n  {text}\n  {}^", error.why, " ".repeat(before))
+    format!(
+        "`{name}`: {}\n  {text}\n  {}^",
+        error.why,
+        " ".repeat(before)
+    )
 }
 
 /// The assumptions of the settings and of the arguments.
@@ -157,10 +223,16 @@ fn assumed(
     reader: Reader,
     settings: Option<&Settings>,
 ) -> Result<Vec<(String, Condition)>, String> {
-    let own = settings.into_iter().flat_map(|settings| &settings.verify.assume);
-    let texts = own.map(|named| named.text.clone()).chain(call.arguments.texts("assume"));
+    let own = settings
+        .into_iter()
+        .flat_map(|settings| &settings.verify.assume);
+    let texts = own
+        .map(|named| named.text.clone())
+        .chain(call.arguments.texts("assume"));
     let read = texts.map(|text| {
-        let condition = reader.assumption(&text).map_err(|error| pointed("assume", &text, &error))?;
+        let condition = reader
+            .assumption(&text)
+            .map_err(|error| pointed("assume", &text, &error))?;
         Ok((text, condition))
     });
     read.collect()
@@ -176,19 +248,30 @@ fn proving(
     const USUAL_MS: u64 = 60_000;
     let verify = settings.map(|settings| &settings.verify);
     let named = verify.and_then(|verify| verify.scan.as_ref());
-    let named = named.map(|named| duration::parse(&named.text)).transpose()?;
+    let named = named
+        .map(|named| duration::parse(&named.text))
+        .transpose()?;
     let usual = World::default();
     let scan_ms = call.arguments.whole("scan_ms").or(named);
     Ok(Options {
         world: World {
-            scan_ms: scan_ms.and_then(|ms| u32::try_from(ms).ok()).unwrap_or(usual.scan_ms),
+            scan_ms: scan_ms
+                .and_then(|ms| u32::try_from(ms).ok())
+                .unwrap_or(usual.scan_ms),
             fresh: call.arguments.flag("cleared"),
             free: external.devices.keys().copied().collect(),
             ..usual
         },
-        assumed: assumed.iter().map(|(_, condition)| condition.clone()).collect(),
-        effort: verify.and_then(|verify| verify.effort).map_or(EFFORT, u64::from),
-        time: Some(Duration::from_millis(call.arguments.whole("timeout_ms").unwrap_or(USUAL_MS))),
+        assumed: assumed
+            .iter()
+            .map(|(_, condition)| condition.clone())
+            .collect(),
+        effort: verify
+            .and_then(|verify| verify.effort)
+            .map_or(EFFORT, u64::from),
+        time: Some(Duration::from_millis(
+            call.arguments.whole("timeout_ms").unwrap_or(USUAL_MS),
+        )),
     })
 }
 
@@ -230,6 +313,7 @@ fn answer(
     for line in &supposed {
         text.push_str(&format!("  - {line}\n"));
     }
-    let data = json!({ "file": file, "results": results, "assumptions": supposed, "warnings": undriven });
+    let data =
+        json!({ "file": file, "results": results, "assumptions": supposed, "warnings": undriven });
     Answer { text, data }
 }

@@ -26,13 +26,18 @@ const PARAMETERS: &[Parameter] = &[
         Kind::Texts,
         "draw only networks that name one of these devices, such as [\"Y000\", \"D100..D199\"]",
     ),
-    Parameter::optional("width", Kind::Whole(60, 250), "characters on a line; default: 100"),
+    Parameter::optional(
+        "width",
+        Kind::Whole(60, 250),
+        "characters on a line; default: 100",
+    ),
 ];
 
 pub(super) const TOOL: Tool = Tool {
     name: "view",
     title: "Draw the ladder",
-    text: "Draws networks (rungs) of a program as ladder in characters, with the comments of devices. The beginning of the \
+    text: "Draws networks (rungs) of a program as ladder in characters, with the comments of devices. The \
+    beginning of the \
            program, a range of networks, or those that name a device. Long programs come in parts: pass `network`.",
     parameters: &[PROGRAM, PARAMETERS],
     output,
@@ -57,7 +62,10 @@ fn call(call: &mut Call) -> Result<Answer, String> {
     let ladder = build::ladder(&resolved);
     let count = ladder.networks.len();
     let first = call.arguments.whole("network").map_or(1, |n| n as usize);
-    let last = call.arguments.whole("last_network").map_or(usize::MAX, |n| n as usize);
+    let last = call
+        .arguments
+        .whole("last_network")
+        .map_or(usize::MAX, |n| n as usize);
     let named = named(call, &project)?;
     let is_chosen = |number: usize| {
         let is_named = named.as_ref().is_none_or(|named| named.contains(&number));
@@ -66,10 +74,15 @@ fn call(call: &mut Call) -> Result<Answer, String> {
     let chosen = (1..).zip(&ladder.networks);
     let chosen: Vec<(usize, &Network)> = chosen.filter(|(number, _)| is_chosen(*number)).collect();
     let Some(&(begin, _)) = chosen.first() else {
-        return Err(format!("none of the {count} networks matches `network`, `last_network` and `devices`"));
+        return Err(format!(
+            "none of the {count} networks matches `network`, `last_network` and `devices`"
+        ));
     };
     let style = Style {
-        width: call.arguments.whole("width").map_or(100, |width| width as usize),
+        width: call
+            .arguments
+            .whole("width")
+            .map_or(100, |width| width as usize),
         comments: true,
     };
     let mut text = String::new();
@@ -92,7 +105,9 @@ fn call(call: &mut Call) -> Result<Answer, String> {
     });
     if let Some(next) = next {
         data["next_network"] = json!(next);
-        text.push_str(&format!("\n[of {count} networks; call again with \"network\": {next} for the rest]\n"));
+        text.push_str(&format!(
+            "\n[of {count} networks; call again with \"network\": {next} for the rest]\n"
+        ));
     }
     Ok(Answer { text, data })
 }

@@ -9,22 +9,33 @@ use serde_json::{Value, json};
 const BYTES: usize = 20_000;
 
 const PARAMETERS: &[Parameter] = &[
-    Parameter::required("device", Kind::Text, "the device or its comment, such as `Y000` or `motor`"),
+    Parameter::required(
+        "device",
+        Kind::Text,
+        "the device or its comment, such as `Y000` or `motor`",
+    ),
     INPUTS,
     Parameter::optional(
         "at_ms",
         Kind::Whole(1, 3_600_000),
-        "the moment of a run with these inputs, in milliseconds after power-on; without it and `inputs`: of the program as a whole",
+        "the moment of a run with these inputs, in milliseconds after power-on; without it and `inputs`: of \
+        the program as a whole",
     ),
-    Parameter::optional("how", Kind::Flag, "also search for what a person can do so that the device changes"),
+    Parameter::optional(
+        "how",
+        Kind::Flag,
+        "also search for what a person can do so that the device changes",
+    ),
     OFFSET,
 ];
 
 pub(super) const TOOL: Tool = Tool {
     name: "why",
     title: "Why a device is on or off",
-    text: "Explains what can switch a device; or, at a moment of a run (`inputs`, `at_ms`), why it is on or off: the smallest \
-           sets of contacts that keep it so, back to inputs, timers, counters and states. With `how`, what to do so that it \
+    text: "Explains what can switch a device; or, at a moment of a run (`inputs`, `at_ms`), why it is on or \
+    off: the smallest \
+           sets of contacts that keep it so, back to inputs, timers, counters and states. With `how`, what \
+           to do so that it \
            changes. Call it when a machine stands still.",
     parameters: &[PROGRAM, PARAMETERS],
     output,
@@ -33,7 +44,11 @@ pub(super) const TOOL: Tool = Tool {
 };
 
 fn output() -> Value {
-    text_output(&[("file", string()), ("device", string()), ("answer?", anything())])
+    text_output(&[
+        ("file", string()),
+        ("device", string()),
+        ("answer?", anything()),
+    ])
 }
 
 fn call(call: &mut Call) -> Result<Answer, String> {
@@ -49,7 +64,9 @@ fn call(call: &mut Call) -> Result<Answer, String> {
         (at_ms, last) => {
             let settled = last.map_or(0, |last| last.at_ms) + 1_000;
             let mut plc = program.start();
-            until(call, &mut plc, &inputs, at_ms.unwrap_or(settled), |_, _| Ok(()))?;
+            until(call, &mut plc, &inputs, at_ms.unwrap_or(settled), |_, _| {
+                Ok(())
+            })?;
             let mut why = plc.why(name).map_err(failed)?;
             if how {
                 why.how = Some(plc.how(name).map_err(failed)?);

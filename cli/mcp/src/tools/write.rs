@@ -10,16 +10,22 @@ const PARAMETERS: &[Parameter] = &[
     Parameter::required(
         "path",
         Kind::Text,
-        "the file, in the folder that the user allows: `press.il`, `press.plctest.toml`, `press.machine.toml`, `rungc.toml`",
+        "the file, in the folder that the user allows: `press.il`, `press.plctest.toml`, \
+        `press.machine.toml`, `rungc.toml`",
     ),
     Parameter::required("text", Kind::Text, "all of its text"),
-    Parameter::optional("overwrite", Kind::Flag, "replace a file that you have written in this session"),
+    Parameter::optional(
+        "overwrite",
+        Kind::Flag,
+        "replace a file that you have written in this session",
+    ),
 ];
 
 pub(super) const TOOL: Tool = Tool {
     name: "write",
     title: "Write a program or a test file",
-    text: "Writes an instruction list, a test file, a machine description or rungc.toml into the folder that the user allows, and \
+    text: "Writes an instruction list, a test file, a machine description or rungc.toml into the folder \
+    that the user allows, and \
            checks it. A file that was there before is never replaced.",
     parameters: &[PARAMETERS],
     output,
@@ -46,21 +52,29 @@ fn call(call: &mut Call) -> Result<Answer, String> {
     let file = call.files.shown(&path);
     let found = match () {
         () if name.ends_with(".il") => {
-            let project = Project::open(&path).map_err(|error| format!("`{file}` is written, but: {error}"))?;
+            let project = Project::open(&path)
+                .map_err(|error| format!("`{file}` is written, but: {error}"))?;
             project.check().diagnostics
         }
         () if name.ends_with(".plctest.toml") => in_test_file(&path, &text),
         () if name.ends_with("rungc.toml") => in_settings(&path, &text),
         () => Vec::new(),
     };
-    let diagnostics = found.iter().take(MOST).map(|found| serde_json::to_value(found).unwrap_or_default());
+    let diagnostics = found
+        .iter()
+        .take(MOST)
+        .map(|found| serde_json::to_value(found).unwrap_or_default());
     let data = json!({
         "file": file,
         "bytes": text.len(),
         "overwrote": overwrite,
         "diagnostics": diagnostics.collect::<Vec<_>>(),
     });
-    let mut said = format!("wrote {file}: {} bytes, {} findings\n", text.len(), found.len());
+    let mut said = format!(
+        "wrote {file}: {} bytes, {} findings\n",
+        text.len(),
+        found.len()
+    );
     for found in found.iter().take(MOST) {
         said.push_str(&format!("{found}\n"));
     }

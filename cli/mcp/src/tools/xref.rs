@@ -12,14 +12,19 @@ const PARAMETERS: &[Parameter] = &[
         Kind::Texts,
         "devices, ranges or comments, such as [\"Y000\", \"D100..D199\", \"start button\"]; default: all",
     ),
-    Parameter::optional("unused", Kind::Flag, "list the general devices that no instruction names, instead"),
+    Parameter::optional(
+        "unused",
+        Kind::Flag,
+        "list the general devices that no instruction names, instead",
+    ),
     OFFSET,
 ];
 
 pub(super) const TOOL: Tool = Tool {
     name: "xref",
     title: "Who uses a device",
-    text: "Lists where devices are read and written: network, step, kind of use and instruction, and areas that overlap. With \
+    text: "Lists where devices are read and written: network, step, kind of use and instruction, and areas \
+    that overlap. With \
            `unused`, devices that are free. Ask for few devices; long lists come in parts: pass `offset`.",
     parameters: &[PROGRAM, PARAMETERS],
     output,
@@ -40,7 +45,10 @@ fn output() -> Value {
 }
 
 /// The ranges of the argument `devices`.
-pub(super) fn ranges(call: &Call, project: &rungc::Project) -> Result<Vec<(DeviceClass, u32, u32)>, String> {
+pub(super) fn ranges(
+    call: &Call,
+    project: &rungc::Project,
+) -> Result<Vec<(DeviceClass, u32, u32)>, String> {
     let names = project.names();
     let texts = call.arguments.texts("devices");
     texts.iter().map(|text| names.range(text.trim())).collect()

@@ -11,7 +11,8 @@ use std::path::Path;
 use tempfile::TempDir;
 
 /// Two contactors without an interlock.
-const REVERSER: &str = ";! X000 = forward button\n;! Y000 = forward contactor\nLD X000\nOR Y000\nANI X002\nANI Y001\nOUT Y000\n\
+const REVERSER: &str = ";! X000 = forward button\n;! Y000 = forward contactor\nLD X000\nOR Y000\nANI \
+X002\nANI Y001\nOUT Y000\n\
                         LD X001\nOR Y001\nANI X002\nOUT Y001\nEND\n";
 
 /// A folder with files.
@@ -46,7 +47,10 @@ fn lines(options: &Options, input: &[u8]) -> Vec<Value> {
     let mut output = Vec::new();
     serve(input, &mut output, options).unwrap();
     let output = String::from_utf8(output).unwrap();
-    output.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+    output
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect()
 }
 
 /// A request as a line.
@@ -56,8 +60,10 @@ fn request(id: u64, method: &str, params: Value) -> String {
 
 /// The handshake, as lines.
 fn handshake(version: &str) -> String {
-    let params = json!({ "protocolVersion": version, "capabilities": {}, "clientInfo": { "name": "t", "version": "1" } });
-    request(0, "initialize", params) + "{\"jsonrpc\":\"2.0\",\"method\":\"notifications/initialized\"}\n"
+    let params = json!({ "protocolVersion": version, "capabilities": {}, "clientInfo": { "name": "t", \
+    "version": "1" } });
+    request(0, "initialize", params)
+        + "{\"jsonrpc\":\"2.0\",\"method\":\"notifications/initialized\"}\n"
 }
 
 /// The answers to requests after a handshake.
@@ -80,5 +86,9 @@ fn call(options: &Options, name: &str, arguments: Value) -> (String, Value, bool
     let result = &answers[0]["result"];
     let text = result["content"][0]["text"].as_str();
     let text = text.unwrap_or_else(|| panic!("{name}: {}", answers[0]));
-    (text.to_owned(), result["structuredContent"].clone(), result["isError"] == json!(true))
+    (
+        text.to_owned(),
+        result["structuredContent"].clone(),
+        result["isError"] == json!(true),
+    )
 }

@@ -25,7 +25,11 @@ expect = { Y000 = 1 }
 #[test]
 fn open_says_what_a_program_is() {
     let folder = folder(&[("a.il", REVERSER)]);
-    let (text, data, failed) = call(&options(folder.path(), false), "open", json!({ "path": "a.il" }));
+    let (text, data, failed) = call(
+        &options(folder.path(), false),
+        "open",
+        json!({ "path": "a.il" }),
+    );
     assert!(!failed);
     insta::assert_snapshot!(format!("{text}\n{data:#}"));
 }
@@ -64,14 +68,22 @@ fn five_mistakes_are_found_beside_an_if() {
 fn long_answers_come_in_parts() {
     let folder = folder(&[]);
     let options = options(folder.path(), false);
-    let list: String = (0..120).map(|n| format!("LD X0\nOUTT Y{n:o}\n")).collect::<String>() + "END\n";
+    let list: String = (0..120)
+        .map(|n| format!("LD X0\nOUTT Y{n:o}\n"))
+        .collect::<String>()
+        + "END\n";
     let (text, data, _) = call(&options, "check", json!({ "list": list }));
-    assert_eq!((&data["total"], &data["next_offset"]), (&json!(120), &json!(50)));
+    assert_eq!(
+        (&data["total"], &data["next_offset"]),
+        (&json!(120), &json!(50))
+    );
     assert!(text.contains("call again with \"offset\": 50"), "{text}");
     let (_, data, _) = call(&options, "check", json!({ "list": list, "offset": 100 }));
     assert_eq!(data["diagnostics"].as_array().unwrap().len(), 20);
     assert!(data.get("next_offset").is_none());
-    let right = list.replace("OUTT", "OUT").replace("LD X0", "LD X0\nAND M1");
+    let right = list
+        .replace("OUTT", "OUT")
+        .replace("LD X0", "LD X0\nAND M1");
     let (_, data, _) = call(&options, "view", json!({ "list": right }));
     let next = data["next_network"].as_u64().unwrap();
     let (_, data, _) = call(&options, "view", json!({ "list": right, "network": next }));
@@ -82,7 +94,11 @@ fn long_answers_come_in_parts() {
 fn ladder_is_drawn_whole_or_in_part() {
     let folder = folder(&[("a.il", REVERSER)]);
     let options = options(folder.path(), false);
-    let (text, ..) = call(&options, "view", json!({ "path": "a.il", "devices": ["Y001"], "last_network": 1 }));
+    let (text, ..) = call(
+        &options,
+        "view",
+        json!({ "path": "a.il", "devices": ["Y001"], "last_network": 1 }),
+    );
     insta::assert_snapshot!(text);
     let (why, _, failed) = call(&options, "view", json!({ "path": "a.il", "network": 9 }));
     assert!(failed && why.contains("none of the 2 networks"), "{why}");
@@ -92,12 +108,26 @@ fn ladder_is_drawn_whole_or_in_part() {
 fn xref_and_explain_answer() {
     let folder = folder(&[("a.il", REVERSER)]);
     let options = options(folder.path(), false);
-    let (text, data, _) = call(&options, "xref", json!({ "path": "a.il", "devices": ["forward contactor"] }));
+    let (text, data, _) = call(
+        &options,
+        "xref",
+        json!({ "path": "a.il", "devices": ["forward contactor"] }),
+    );
     insta::assert_snapshot!(text);
     assert_eq!(data["devices"].as_array().unwrap().len(), 1);
-    let (text, ..) = call(&options, "xref", json!({ "path": "a.il", "unused": true, "offset": 0 }));
+    let (text, ..) = call(
+        &options,
+        "xref",
+        json!({ "path": "a.il", "unused": true, "offset": 0 }),
+    );
     assert!(text.contains("Unused"), "{text}");
-    for (topic, part) in [("MOV", "MOV"), ("W0203", "double-coil"), ("M8013", "M8013"), ("test-files", "Test files"), ("two-hand", "two-hand")] {
+    for (topic, part) in [
+        ("MOV", "MOV"),
+        ("W0203", "double-coil"),
+        ("M8013", "M8013"),
+        ("test-files", "Test files"),
+        ("two-hand", "two-hand"),
+    ] {
         let (text, _, failed) = call(&options, "explain", json!({ "topic": topic }));
         assert!(!failed && text.contains(part), "{topic}: {text}");
     }
@@ -108,7 +138,8 @@ fn xref_and_explain_answer() {
 #[test]
 fn a_run_is_a_trace() {
     let folder = folder(&[]);
-    let list = ";! X000 = start\nLD X000\nOUT T0 K3\nLD T0\nOUT Y000\nLD M8000\nDIV D0 D1 D2\nEND\n";
+    let list =
+        ";! X000 = start\nLD X000\nOUT T0 K3\nLD T0\nOUT Y000\nLD M8000\nDIV D0 D1 D2\nEND\n";
     let arguments = json!({
         "list": list,
         "inputs": [{ "at_ms": 500, "set": { "X000": false } }, { "at_ms": 100, "set": { "start": true } }],
@@ -119,8 +150,16 @@ fn a_run_is_a_trace() {
     let (text, data, failed) = call(&options, "run", arguments.clone());
     assert!(!failed, "{text}");
     insta::assert_snapshot!(text);
-    assert_eq!(call(&options, "run", arguments).1, data, "the same call gives the same run");
-    let (text, ..) = call(&options, "run", json!({ "list": list, "inputs": [{ "set": { "X000": true } }] }));
+    assert_eq!(
+        call(&options, "run", arguments).1,
+        data,
+        "the same call gives the same run"
+    );
+    let (text, ..) = call(
+        &options,
+        "run",
+        json!({ "list": list, "inputs": [{ "set": { "X000": true } }] }),
+    );
     assert!(text.lines().next().unwrap().contains("Y000"), "{text}");
     for wrong in [
         json!({ "list": list, "inputs": [{ "set": { "Q0": true } }] }),
@@ -138,11 +177,19 @@ fn a_run_is_a_trace() {
 fn why_explains_a_program_and_a_moment() {
     let folder = folder(&[("a.il", REVERSER)]);
     let options = options(folder.path(), false);
-    let (text, data, _) = call(&options, "why", json!({ "path": "a.il", "device": "forward contactor" }));
+    let (text, data, _) = call(
+        &options,
+        "why",
+        json!({ "path": "a.il", "device": "forward contactor" }),
+    );
     assert!(text.contains("is written by one instruction"), "{text}");
     assert_eq!(data["device"], json!("Y000"));
     let inputs = json!([{ "set": { "X000": true, "X002": true } }]);
-    let (text, ..) = call(&options, "why", json!({ "path": "a.il", "device": "Y000", "inputs": inputs, "how": true }));
+    let (text, ..) = call(
+        &options,
+        "why",
+        json!({ "path": "a.il", "device": "Y000", "inputs": inputs, "how": true }),
+    );
     insta::assert_snapshot!(text);
 }
 
@@ -151,10 +198,22 @@ fn test_cases_run_from_files_and_texts() {
     let folder = folder(&[("a.il", REVERSER), ("a.plctest.toml", TESTS)]);
     let options = options(folder.path(), false);
     let (text, data, _) = call(&options, "test", json!({ "path": "a.plctest.toml" }));
-    assert_eq!((&data["passed"], &data["failed"]), (&json!(1), &json!(1)), "{text}");
-    assert_eq!(data["cases"][0]["name"], json!("wrong"), "failures are first");
+    assert_eq!(
+        (&data["passed"], &data["failed"]),
+        (&json!(1), &json!(1)),
+        "{text}"
+    );
+    assert_eq!(
+        data["cases"][0]["name"],
+        json!("wrong"),
+        "failures are first"
+    );
     assert!(text.contains("Y000 is 0, expected 1"), "{text}");
-    let (_, data, _) = call(&options, "test", json!({ "text": TESTS, "filter": "forward" }));
+    let (_, data, _) = call(
+        &options,
+        "test",
+        json!({ "text": TESTS, "filter": "forward" }),
+    );
     assert_eq!((&data["passed"], &data["failed"]), (&json!(1), &json!(0)));
     let (why, _, failed) = call(&options, "test", json!({ "text": "model = 5" }));
     assert!(failed && why.contains("mistakes"), "{why}");
@@ -164,15 +223,27 @@ fn test_cases_run_from_files_and_texts() {
 fn verdicts_come_with_assumptions() {
     let right = REVERSER.replace("ANI X002\nOUT Y001", "ANI X002\nANI Y000\nOUT Y001");
     let settings = "[project]\nprogram = \"b.il\"\n[[property]]\nname = \"interlock\"\nnever = \"Y000 & Y001\"\n";
-    let folder = folder(&[("a.il", REVERSER), ("b.il", &right), ("rungc.toml", settings)]);
+    let folder = folder(&[
+        ("a.il", REVERSER),
+        ("b.il", &right),
+        ("rungc.toml", settings),
+    ]);
     let options = options(folder.path(), false);
-    let (text, data, _) = call(&options, "verify", json!({ "path": "a.il", "never": ["Y000 & Y001"] }));
+    let (text, data, _) = call(
+        &options,
+        "verify",
+        json!({ "path": "a.il", "never": ["Y000 & Y001"] }),
+    );
     assert_eq!(data["results"][0]["verdict"], json!("violated"));
     insta::assert_snapshot!(text);
     let (text, data, _) = call(&options, "verify", json!({ "path": "b.il" }));
     assert_eq!(data["results"][0]["verdict"], json!("proved"), "{text}");
     assert!(data["assumptions"].as_array().unwrap().len() > 3);
-    let (why, _, failed) = call(&options, "verify", json!({ "path": "a.il", "never": ["Y000 & "] }));
+    let (why, _, failed) = call(
+        &options,
+        "verify",
+        json!({ "path": "a.il", "never": ["Y000 & "] }),
+    );
     assert!(failed && why.contains('^'), "{why}");
     let (why, _, failed) = call(&options, "verify", json!({ "path": "a.il" }));
     assert!(failed && why.contains("no property"), "{why}");
@@ -186,7 +257,11 @@ fn programs_are_compared_and_converted() {
     let right = REVERSER.replace("ANI X002\nOUT Y001", "ANI X002\nANI Y000\nOUT Y001");
     let folder = folder(&[("a.il", REVERSER), ("b.il", &right)]);
     let options = options(folder.path(), false);
-    let (text, data, _) = call(&options, "diff", json!({ "old": "a.il", "new": "b.il", "semantic": true }));
+    let (text, data, _) = call(
+        &options,
+        "diff",
+        json!({ "old": "a.il", "new": "b.il", "semantic": true }),
+    );
     insta::assert_snapshot!(text);
     assert_eq!(data["differs"], json!(true));
     let (_, data, _) = call(&options, "diff", json!({ "old": "a.il", "new": "a.il" }));
@@ -201,13 +276,22 @@ fn programs_are_compared_and_converted() {
 fn files_are_written_only_where_that_is_allowed() {
     let folder = folder(&[("old.il", REVERSER)]);
     let writing = options(folder.path(), true);
-    let write = |path: &str| call(&writing, "write", json!({ "path": path, "text": "LD X000\nOUTT Y000\nEND\n" }));
+    let write = |path: &str| {
+        call(
+            &writing,
+            "write",
+            json!({ "path": path, "text": "LD X000\nOUTT Y000\nEND\n" }),
+        )
+    };
     let (text, data, failed) = write("new.il");
     assert!(!failed && text.contains("OUTT"), "{text}");
     assert_eq!(data["diagnostics"].as_array().unwrap().len(), 1);
     let (why, _, failed) = write("old.il");
     assert!(failed && why.contains("was there before"), "{why}");
-    assert_eq!(fs::read_to_string(folder.path().join("old.il")).unwrap(), REVERSER);
+    assert_eq!(
+        fs::read_to_string(folder.path().join("old.il")).unwrap(),
+        REVERSER
+    );
     assert!(write("../evil.il").2 && write("a.sh").2);
     let (why, _, failed) = call(&writing, "check", json!({ "path": "../../etc/passwd" }));
     assert!(failed && why.contains("outside"), "{why}");

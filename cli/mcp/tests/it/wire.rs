@@ -10,7 +10,10 @@ fn the_version_is_agreed_on() {
     let options = options(folder.path(), false);
     let agreed = |wanted: &str| {
         let answers = lines(&options, handshake(wanted).as_bytes());
-        answers[0]["result"]["protocolVersion"].as_str().unwrap().to_owned()
+        answers[0]["result"]["protocolVersion"]
+            .as_str()
+            .unwrap()
+            .to_owned()
     };
     for version in ["2024-11-05", "2025-03-26", "2025-06-18", "2025-11-25"] {
         assert_eq!(agreed(version), version);
@@ -50,10 +53,19 @@ fn requests_without_a_handshake_name_their_version() {
         ),
         request(4, "tools/list", json!({ "_meta": meta("2030-01-01") })),
         request(5, "ping", json!({ "_meta": meta("2026-07-28") })),
-        request(6, "resources/read", json!({ "_meta": meta("2026-07-28"), "uri": "rungc://x/y" })),
+        request(
+            6,
+            "resources/read",
+            json!({ "_meta": meta("2026-07-28"), "uri": "rungc://x/y" }),
+        ),
     ];
     let answers = lines(&options, input.concat().as_bytes());
-    let of = |id: u64| answers.iter().find(|answer| answer["id"] == json!(id)).unwrap();
+    let of = |id: u64| {
+        answers
+            .iter()
+            .find(|answer| answer["id"] == json!(id))
+            .unwrap()
+    };
     assert_eq!(of(1)["result"]["supportedVersions"], json!(["2026-07-28"]));
     assert_eq!(of(2)["result"]["resultType"], json!("complete"));
     assert!(of(2)["result"]["ttlMs"].is_u64());
@@ -91,7 +103,10 @@ fn tools_have_schemas_and_say_whether_they_change_anything() {
         answers[0]["result"]["tools"].as_array().unwrap().clone()
     };
     let names = |tools: &[Value]| -> Vec<String> {
-        tools.iter().map(|tool| tool["name"].as_str().unwrap().to_owned()).collect()
+        tools
+            .iter()
+            .map(|tool| tool["name"].as_str().unwrap().to_owned())
+            .collect()
     };
     let reading = tools(false);
     assert_eq!(
@@ -107,7 +122,10 @@ fn tools_have_schemas_and_say_whether_they_change_anything() {
     }
     let writing = tools(true);
     assert_eq!(names(&writing).last().unwrap(), "write");
-    assert_eq!(writing.last().unwrap()["annotations"]["readOnlyHint"], json!(false));
+    assert_eq!(
+        writing.last().unwrap()["annotations"]["readOnlyHint"],
+        json!(false)
+    );
 }
 
 #[test]
@@ -125,18 +143,28 @@ fn resources_come_in_parts_and_each_can_be_read() {
         }
     }
     assert!(all.len() > 300, "{}", all.len());
-    let uris: BTreeSet<String> = all.iter().map(|one| one["uri"].as_str().unwrap().to_owned()).collect();
+    let uris: BTreeSet<String> = all
+        .iter()
+        .map(|one| one["uri"].as_str().unwrap().to_owned())
+        .collect();
     assert_eq!(uris.len(), all.len(), "an address is that of one resource");
-    let requests: Vec<_> = uris.iter().map(|uri| ("resources/read", json!({ "uri": uri }))).collect();
+    let requests: Vec<_> = uris
+        .iter()
+        .map(|uri| ("resources/read", json!({ "uri": uri })))
+        .collect();
     for requests in requests.chunks(100) {
         for (answer, (_, params)) in session(&options, requests).iter().zip(requests) {
             let text = answer["result"]["contents"][0]["text"].as_str();
-            assert!(text.is_some_and(|text| !text.is_empty()), "{params}: {answer}");
+            assert!(
+                text.is_some_and(|text| !text.is_empty()),
+                "{params}: {answer}"
+            );
         }
     }
     let templates = &session(&options, &[("resources/templates/list", json!({}))])[0]["result"];
     assert_eq!(templates["resourceTemplates"].as_array().unwrap().len(), 7);
-    let read = |uri: &str| session(&options, &[("resources/read", json!({ "uri": uri }))])[0].to_string();
+    let read =
+        |uri: &str| session(&options, &[("resources/read", json!({ "uri": uri }))])[0].to_string();
     assert!(read("rungc://special-device/M8013/fx3u").contains("clock"));
     assert!(read("rungc://plc-error/6706").contains("6706"));
     assert!(read("rungc://instruction/MOVV").contains("did you mean"));
@@ -149,7 +177,9 @@ fn what_is_cancelled_has_no_answer() {
     let run = json!({ "name": "run", "arguments": { "path": "a.il", "for_ms": 3_600_000 } });
     let cancel = |id: u64| {
         let params = json!({ "requestId": id, "reason": "changed my mind" });
-        json!({ "jsonrpc": "2.0", "method": "notifications/cancelled", "params": params }).to_string() + "\n"
+        json!({ "jsonrpc": "2.0", "method": "notifications/cancelled", "params": params })
+            .to_string()
+            + "\n"
     };
     let input = [
         handshake("2025-11-25"),
@@ -162,7 +192,10 @@ fn what_is_cancelled_has_no_answer() {
         request(3, "tools/list", json!({})),
     ];
     let answers = lines(&options(folder.path(), false), input.concat().as_bytes());
-    let ids: Vec<_> = answers.iter().map(|answer| answer["id"].as_u64().unwrap()).collect();
+    let ids: Vec<_> = answers
+        .iter()
+        .map(|answer| answer["id"].as_u64().unwrap())
+        .collect();
     assert_eq!(ids, [0, 3]);
 }
 
@@ -174,12 +207,23 @@ fn prompts_are_filled_in() {
         &options,
         &[
             ("prompts/list", json!({})),
-            ("prompts/get", json!({ "name": "prove-interlock", "arguments": { "path": "a.il", "interlock": "both contactors" } })),
-            ("prompts/get", json!({ "name": "prove-interlock", "arguments": { "path": "a.il" } })),
+            (
+                "prompts/get",
+                json!({ "name": "prove-interlock", "arguments": { "path": "a.il", "interlock": "both contactors" } }),
+            ),
+            (
+                "prompts/get",
+                json!({ "name": "prove-interlock", "arguments": { "path": "a.il" } }),
+            ),
         ],
     );
     assert_eq!(answers[0]["result"]["prompts"].as_array().unwrap().len(), 5);
-    let text = answers[1]["result"]["messages"][0]["content"]["text"].as_str().unwrap();
-    assert!(text.starts_with("Prove for `a.il`: both contactors"), "{text}");
+    let text = answers[1]["result"]["messages"][0]["content"]["text"]
+        .as_str()
+        .unwrap();
+    assert!(
+        text.starts_with("Prove for `a.il`: both contactors"),
+        "{text}"
+    );
     assert_eq!(answers[2]["error"]["code"], json!(-32602));
 }

@@ -288,7 +288,9 @@ pub fn report_undriven(
     reporter: &mut Reporter,
 ) -> Result<()> {
     let found = request::undriven(
-        requested.iter().map(|one| (one.text.as_str(), &one.property)),
+        requested
+            .iter()
+            .map(|one| (one.text.as_str(), &one.property)),
         &read.program,
         &subject.options(),
         external,

@@ -1,6 +1,7 @@
 //! Tests of the crate from outside, one module for each area.
 
 mod arm_linux;
+mod assistants;
 mod boards;
 mod book;
 #[cfg(all(unix, feature = "mqtt"))]

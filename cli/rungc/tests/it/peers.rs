@@ -105,7 +105,7 @@ pub fn python(module: &str, script: &str) -> Option<Command> {
 }
 
 /// A client of `tests/clients` for Node, if the package is there.
-fn node(package: &str, script: &str) -> Option<Command> {
+pub fn node(package: &str, script: &str) -> Option<Command> {
     let modules = env::var_os("RUNGC_NODE_MODULES").unwrap_or_default();
     let command = || {
         let mut command = Command::new("node");

@@ -70,10 +70,7 @@ pub fn fragment([before, after]: [Drawn; 2], change: Change, width: u16) -> Stri
         comments: false,
     };
     let [old, new] = change.places();
-    let (old, new) = (
-        old.map(|at| (before, at)),
-        new.map(|at| (after, at)),
-    );
+    let (old, new) = (old.map(|at| (before, at)), new.map(|at| (after, at)));
     let drawn = |of: Drawn<'_>, at: usize| match change {
         Change::Remarked { .. } => Some(remarks(of, at)),
         _ => None,
