@@ -27,14 +27,14 @@ const ALL: [Prompt; 5] = [
             ("model", "the PLC, such as fx3u", false),
         ],
         body: "Write a PLC program as an instruction list for this machine (PLC: {model}):\n\n{description}\n\n\
-               1. Read rungc://guide. List the inputs and outputs with their numbers (octal), and ask about what the \
-               description leaves open: what happens at power-on, at a stop, when a sensor fails.\n\
-               2. Write the list with a comment for every device (`;! X000 = start button`). Use `explain` for every \
-               instruction that you are not certain of.\n\
+               1. Read rungc://guide. List the inputs and outputs with their numbers (octal), and ask about \
+               what the description leaves open: what happens at power-on, at a stop, when a sensor fails.\n\
+               2. Write the list with a comment for every device (`;! X000 = start button`). Use `explain` \
+               for every instruction that you are not certain of.\n\
                3. `check` it until there are no errors, and no warning that you cannot justify.\n\
                4. `run` it with inputs that show each function, then write test cases and `test` them.\n\
-               5. `verify` what must never happen, such as two directions at once. Say under which assumptions it is \
-               proved.\n\
+               5. `verify` what must never happen, such as two directions at once. Say under which \
+               assumptions it is proved.\n\
                6. Show the program, the tests, and what is not tested.",
     },
     Prompt {
@@ -54,8 +54,8 @@ const ALL: [Prompt; 5] = [
                1. `open` the program, and `why` with that device: what writes it, under which conditions.\n\
                2. `why` again with the known inputs and `how: true`: what is missing, and what a person can do.\n\
                3. `view` the networks that it names, follow timers, counters and states back to inputs.\n\
-               4. Answer in the words of the comments: which sensor or button, where to look on the machine, how to \
-               check it. Do not propose to bridge a guard, an emergency stop or another safeguard.",
+               4. Answer in the words of the comments: which sensor or button, where to look on the machine, \
+               how to check it. Do not propose to bridge a guard, an emergency stop or another safeguard.",
     },
     Prompt {
         name: "review-change",
@@ -68,8 +68,8 @@ const ALL: [Prompt; 5] = [
         body: "Review the change from `{old}` to `{new}`.\n\n\
                1. `diff` with `semantic: true`: which networks, which devices can behave differently.\n\
                2. `check` both: which findings are new.\n\
-               3. For each output that can differ: `view` its networks, `xref` the devices, and `run` both with the \
-               same inputs where a difference would show.\n\
+               3. For each output that can differ: `view` its networks, `xref` the devices, and `run` both \
+               with the same inputs where a difference would show.\n\
                4. Say what the change does, what it may break, and which test or property would catch that.",
     },
     Prompt {
@@ -82,10 +82,10 @@ const ALL: [Prompt; 5] = [
         ],
         body: "Write a test file (`.plctest.toml`) for `{path}`. To be tested: {functions}\n\n\
                1. `open` and `view` the program; read rungc://book/test-files.\n\
-               2. List its functions, and for each the case that it works and the case that a sensor, a time or an \
-               operator is in its way.\n\
-               3. Write the cases, `test` them with `text`, and look at each failure: is the test wrong, or the \
-               program? Do not change an expectation to what the program does without a reason.\n\
+               2. List its functions, and for each the case that it works and the case that a sensor, a time \
+               or an operator is in its way.\n\
+               3. Write the cases, `test` them with `text`, and look at each failure: is the test wrong, or \
+               the program? Do not change an expectation to what the program does without a reason.\n\
                4. Show the file, and what it does not test.",
     },
     Prompt {
@@ -100,11 +100,10 @@ const ALL: [Prompt; 5] = [
                1. `open` the program and find the devices by their comments; read rungc://book/prove.\n\
                2. Write the property as a condition, such as `never` `Y000 & Y001`, and say it back in words.\n\
                3. `verify` it. If it is violated: explain the run that is shown, and which network allows it.\n\
-               4. If it is proved: repeat all assumptions, and ask whether they hold for this machine \
-               (panels that write \
-               devices, scan time). If it is not decided: say so, and why.\n\
-               5. A proof is about the program alone: it does not replace an interlock in hardware or a safety \
-               assessment.",
+               4. If it is proved: repeat all assumptions, and ask whether they hold for this machine (panels \
+               that write devices, scan time). If it is not decided: say so, and why.\n\
+               5. A proof is about the program alone: it does not replace an interlock in hardware or a \
+               safety assessment.",
     },
 ];
 

@@ -98,8 +98,7 @@ pub(crate) fn list(options: &Options) -> Vec<Value> {
 
 /// Addresses with a part that a client fills in.
 pub(crate) fn templates() -> Vec<Value> {
-    let template = |uri: String, name: &str, title: &str, text: &str| json!({ "uriTemplate": uri, "name": \
-    name, "title": title, "description": text, "mimeType": "text/plain" });
+    let template = |uri: String, name: &str, title: &str, text: &str| json!({ "uriTemplate": uri, "name": name, "title": title, "description": text, "mimeType": "text/plain" });
     let topics = TOPICS.iter();
     let mut all: Vec<Value> = topics
         .map(|(kind, title, text)| template(format!("rungc://{kind}/{{name}}"), kind, title, text))

@@ -12,14 +12,12 @@ use std::sync::atomic::AtomicBool;
 
 /// What a client's assistant reads about this server.
 const INSTRUCTIONS: &str = "\
-Reads, checks, runs, tests and proves programs of Mitsubishi FX-family PLCs (also Inovance H1U, H2U, L01S, HM). \
-Read the resource rungc://guide before you write a program. Programs are files below the folders of this server \
-(argument `path`), or texts that you pass (argument `list`). After every change: `check`; then `run` or \
-`test` shows what \
-the program does, and `verify` proves what it never does. Nothing is changed on disk or in a PLC unless \
-there is a tool \
-`write`. A verdict of `verify` holds under the assumptions that it lists: repeat them. None of this replaces \
-a safety assessment of the machine.";
+Reads, checks, runs, tests and proves programs of Mitsubishi FX-family PLCs (also Inovance H1U, H2U, L01S, \
+HM). Read the resource rungc://guide before you write a program. Programs are files below the folders of this \
+server (argument `path`), or texts that you pass (argument `list`). After every change: `check`; then `run` \
+or `test` shows what the program does, and `verify` proves what it never does. No PLC is reached, and no file \
+is changed unless there is a tool `write`. A verdict of `verify` holds under the assumptions that it lists: \
+repeat them. None of this replaces a safety assessment of the machine.";
 
 /// Entries of a list that one answer has.
 const LISTED: usize = 200;

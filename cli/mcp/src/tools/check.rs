@@ -15,10 +15,8 @@ pub(super) const TOOL: Tool = Tool {
     name: "check",
     title: "Check a program",
     text: "Finds all that is wrong with a program: errors, warnings and notes with code, place (line and \
-    column, or step), \
-           help, and a fix where one is known. Call it after every change. `explain` describes a code. \
-           `list` checks a text \
-           that is not in a file.",
+    column, or step), help, and a fix where one is known. Call it after every change. `explain` describes a \
+    code. `list` checks a text that is not in a file.",
     parameters: &[PROGRAM, &[LEVEL, OFFSET]],
     output,
     writes: false,

@@ -17,8 +17,7 @@ pub(super) const TOOL: Tool = Tool {
     name: "convert",
     title: "Convert a program",
     text: "Rewrites a program of any format as an instruction list, drawn ladder or PLCopen XML, as text. \
-    Long texts come in \
-           parts: pass `offset`. Nothing is written to disk.",
+    Long texts come in parts: pass `offset`. Nothing is written to disk.",
     parameters: &[PROGRAM, &[TO, OFFSET]],
     output,
     writes: false,

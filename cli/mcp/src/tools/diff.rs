@@ -32,10 +32,8 @@ pub(super) const TOOL: Tool = Tool {
     name: "diff",
     title: "Compare two programs",
     text: "Compares two programs network by network, also of different formats: changed, added, removed and \
-    moved networks as \
-           ladder, comments of devices, settings. With `semantic`, which devices can behave differently. \
-           Long answers come in \
-           parts: pass `offset`.",
+    moved networks as ladder, comments of devices, settings. With `semantic`, which devices can behave \
+    differently. Long answers come in parts: pass `offset`.",
     parameters: &[PARAMETERS],
     output,
     writes: false,

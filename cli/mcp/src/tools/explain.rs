@@ -9,9 +9,9 @@ const PARAMETERS: &[Parameter] = &[
     Parameter::required(
         "topic",
         Kind::Text,
-        "an instruction (MOV, LD>=), a code of a finding (W0203), a special device (M8013), an error code \
-        of a PLC (6706), \
-         a model (fx3u), a safety function (`functions` lists them), or a page of the book (test-files)",
+        "an instruction (MOV, LD>=), a code of a finding (W0203), a special device (M8013), an error code of \
+        a PLC (6706), a model (fx3u), a safety function (`functions` lists them), or a page of the book \
+        (test-files)",
     ),
     Parameter::optional(
         "model",
@@ -25,8 +25,8 @@ pub(super) const TOOL: Tool = Tool {
     name: "explain",
     title: "Explain an instruction, a code, a device",
     text: "Explains an instruction with its operands, forms and errors, a code of a finding, a special \
-    device, a model or a \
-           page of the book. Call it before you use an instruction or a special device that you are not certain of.",
+    device, a model or a page of the book. Call it before you use an instruction or a special device that you \
+    are not certain of.",
     parameters: &[PARAMETERS],
     output,
     writes: false,

@@ -15,8 +15,7 @@ pub(super) const TOOL: Tool = Tool {
     name: "open",
     title: "What a program is",
     text: "Says what a program file is: format, PLC model, size, which devices it uses, and the names \
-    (comments) of its \
-           devices. Call it first. Lists of names are in parts: pass `offset`.",
+    (comments) of its devices. Call it first. Lists of names are in parts: pass `offset`.",
     parameters: &[PROGRAM, &[OFFSET]],
     output,
     writes: false,

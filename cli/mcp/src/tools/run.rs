@@ -23,9 +23,8 @@ const LIMIT: Duration = Duration::from_secs(60);
 pub(super) const INPUTS: Parameter = Parameter::optional(
     "inputs",
     Kind::Inputs,
-    "what is set when, in virtual time: [{\"at_ms\": 0, \"set\": {\"X000\": true}}, {\"at_ms\": 500, \
-    \"set\": {\"X000\": false}}]; \
-     inputs keep their state; names are devices or comments",
+    "what is set when, in virtual time: [{\"at_ms\": 0, \"set\": {\"X000\": true}}, {\"at_ms\": 500, \"set\": \
+    {\"X000\": false}}]; inputs keep their state; names are devices or comments",
 );
 
 const PARAMETERS: &[Parameter] = &[
@@ -34,8 +33,7 @@ const PARAMETERS: &[Parameter] = &[
         "watch",
         Kind::Texts,
         "devices whose values are shown, such as [\"Y000\", \"T0\", \"D0.i32\", \"D2.f32\", \"start \
-        button\"]; default: outputs \
-         and what the program writes",
+        button\"]; default: outputs and what the program writes",
     ),
     Parameter::optional(
         "for_ms",
@@ -49,10 +47,9 @@ pub(super) const TOOL: Tool = Tool {
     name: "run",
     title: "Run a program",
     text: "Runs a program in virtual time on the reference interpreter, from power-on, with inputs that you \
-    set, and shows the \
-           values of devices after each scan in which one of them changed. A scan takes 10 ms unless the \
-           program says \
-           otherwise. The same call gives the same run. Special modules and simulated machines are for `test`.",
+    set, and shows the values of devices after each scan in which one of them changed. A scan takes 10 ms \
+    unless the program says otherwise. The same call gives the same run. Special modules and simulated \
+    machines are for `test`.",
     parameters: &[PROGRAM, PARAMETERS],
     output,
     writes: false,

@@ -32,9 +32,9 @@ const PARAMETERS: &[Parameter] = &[
 pub(super) const TOOL: Tool = Tool {
     name: "test",
     title: "Run test cases",
-    text: "Runs the cases of a PLC test file (rungc://book/test-files describes the format) on the \
-    reference interpreter and \
-           says which fail, with expected and actual values. `text` runs cases that are not in a file.",
+    text: "Runs the cases of a PLC test file (rungc://book/test-files describes the format) on the reference \
+    interpreter and says which fail, with expected and actual values. `text` runs cases that are not in a \
+    file.",
     parameters: &[PARAMETERS],
     output,
     writes: false,

@@ -20,8 +20,7 @@ const PARAMETERS: &[Parameter] = &[
         "never",
         Kind::Texts,
         "conditions that must never hold after a scan, such as [\"Y000 & Y001\", \"Y000 & !X003\", \"D0 > \
-        100\"]; comments of \
-         devices are written in quotes",
+        100\"]; comments of devices are written in quotes",
     ),
     Parameter::optional(
         "always",
@@ -64,11 +63,10 @@ const PARAMETERS: &[Parameter] = &[
 pub(super) const TOOL: Tool = Tool {
     name: "verify",
     title: "Prove properties",
-    text: "Decides whether a program can ever do something, in any run from power-on with any inputs: \
-    proved, violated (with the \
-           shortest run found), or not decided. Without properties, those of rungc.toml. A proof is about \
-           the program under the \
-           listed assumptions: repeat them to the user. rungc://book/prove describes conditions.",
+    text: "Decides whether a program can ever do something, in any run from power-on with any inputs: proved, \
+    violated (with the shortest run found), or not decided. Without properties, those of rungc.toml. A proof \
+    is about the program under the listed assumptions: repeat them to the user. rungc://book/prove describes \
+    conditions.",
     parameters: &[PROGRAM, PARAMETERS],
     output,
     writes: false,
@@ -201,8 +199,10 @@ fn requested(
         }
     }
     match requested.is_empty() {
-        true => Err("no property: pass `never`, `always` or `reachable`, such as \"never\": [\"Y000 & \
-        Y001\"]".to_owned()),
+        true => Err(
+            "no property: pass `never`, `always` or `reachable`, such as \"never\": [\"Y000 & Y001\"]"
+                .to_owned(),
+        ),
         false => Ok(requested),
     }
 }

@@ -37,8 +37,8 @@ pub(super) const TOOL: Tool = Tool {
     name: "view",
     title: "Draw the ladder",
     text: "Draws networks (rungs) of a program as ladder in characters, with the comments of devices. The \
-    beginning of the \
-           program, a range of networks, or those that name a device. Long programs come in parts: pass `network`.",
+    beginning of the program, a range of networks, or those that name a device. Long programs come in parts: \
+    pass `network`.",
     parameters: &[PROGRAM, PARAMETERS],
     output,
     writes: false,

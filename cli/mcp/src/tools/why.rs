@@ -33,10 +33,8 @@ pub(super) const TOOL: Tool = Tool {
     name: "why",
     title: "Why a device is on or off",
     text: "Explains what can switch a device; or, at a moment of a run (`inputs`, `at_ms`), why it is on or \
-    off: the smallest \
-           sets of contacts that keep it so, back to inputs, timers, counters and states. With `how`, what \
-           to do so that it \
-           changes. Call it when a machine stands still.",
+    off: the smallest sets of contacts that keep it so, back to inputs, timers, counters and states. With \
+    `how`, what to do so that it changes. Call it when a machine stands still.",
     parameters: &[PROGRAM, PARAMETERS],
     output,
     writes: false,

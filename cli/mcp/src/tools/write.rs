@@ -24,9 +24,8 @@ const PARAMETERS: &[Parameter] = &[
 pub(super) const TOOL: Tool = Tool {
     name: "write",
     title: "Write a program or a test file",
-    text: "Writes an instruction list, a test file, a machine description or rungc.toml into the folder \
-    that the user allows, and \
-           checks it. A file that was there before is never replaced.",
+    text: "Writes an instruction list, a test file, a machine description or rungc.toml into the folder that \
+    the user allows, and checks it. A file that was there before is never replaced.",
     parameters: &[PARAMETERS],
     output,
     writes: true,

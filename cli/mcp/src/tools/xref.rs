@@ -24,8 +24,8 @@ pub(super) const TOOL: Tool = Tool {
     name: "xref",
     title: "Who uses a device",
     text: "Lists where devices are read and written: network, step, kind of use and instruction, and areas \
-    that overlap. With \
-           `unused`, devices that are free. Ask for few devices; long lists come in parts: pass `offset`.",
+    that overlap. With `unused`, devices that are free. Ask for few devices; long lists come in parts: pass \
+    `offset`.",
     parameters: &[PROGRAM, PARAMETERS],
     output,
     writes: false,

@@ -60,8 +60,7 @@ fn request(id: u64, method: &str, params: Value) -> String {
 
 /// The handshake, as lines.
 fn handshake(version: &str) -> String {
-    let params = json!({ "protocolVersion": version, "capabilities": {}, "clientInfo": { "name": "t", \
-    "version": "1" } });
+    let params = json!({ "protocolVersion": version, "capabilities": {}, "clientInfo": { "name": "t", "version": "1" } });
     request(0, "initialize", params)
         + "{\"jsonrpc\":\"2.0\",\"method\":\"notifications/initialized\"}\n"
 }
