@@ -126,16 +126,19 @@ impl Files {
     /// Programs and test files in the first folder, as the end of a message.
     fn near(&self) -> String {
         const MOST: usize = 8;
-        let programs = rungc::settings::programs_in(self.base()).unwrap_or_default();
-        let named: Vec<_> = programs
-            .iter()
-            .take(MOST)
-            .map(|path| format!("`{}`", self.shown(path)))
-            .collect();
-        match (named.len(), programs.len().saturating_sub(MOST)) {
+        const ENDINGS: [&str; 4] = [".il", ".gxw", ".plctest.toml", ".csv"];
+        let entries = fs::read_dir(self.base()).into_iter().flatten().flatten();
+        let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+        let is_known = |name: &String| ENDINGS.iter().any(|ending| name.ends_with(ending));
+        let mut names: Vec<_> = names.filter(is_known).collect();
+        names.sort();
+        let count = names.len();
+        names.truncate(MOST);
+        let shown: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+        match (count, count.saturating_sub(MOST)) {
             (0, _) => String::new(),
-            (_, 0) => format!("; programs here: {}", named.join(", ")),
-            (_, more) => format!("; programs here: {} and {more} more", named.join(", ")),
+            (_, 0) => format!("; files here: {}", shown.join(", ")),
+            (_, more) => format!("; files here: {} and {more} more", shown.join(", ")),
         }
     }
 
@@ -271,7 +274,7 @@ mod tests {
             files
                 .find("b.il")
                 .unwrap_err()
-                .contains("programs here: `a.il`")
+                .contains("files here: `a.il`")
         );
         assert!(files.find("").is_err() && files.find("a\0").is_err());
     }

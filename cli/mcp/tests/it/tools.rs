@@ -101,7 +101,7 @@ fn ladder_is_drawn_whole_or_in_part() {
     );
     insta::assert_snapshot!(text);
     let (why, _, failed) = call(&options, "view", json!({ "path": "a.il", "network": 9 }));
-    assert!(failed && why.contains("none of the 2 networks"), "{why}");
+    assert!(failed && why.contains("none of the 3 networks"), "{why}");
 }
 
 #[test]

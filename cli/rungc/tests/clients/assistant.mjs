@@ -24,8 +24,8 @@ const call = async (name, args) => {
 
 const list = 'LD X000\nANI Y001\nOUT Y000\nLD X001\nANI Y000\nOUT Y001\nEND\n';
 assert.equal((await call('check', { list })).errors, 0);
-assert.equal((await call('open', { path: 'a.il' })).networks, 1);
-assert.equal((await call('view', { list })).networks, 2);
+assert.equal((await call('open', { path: 'a.il' })).networks, 2);
+assert.equal((await call('view', { list })).networks, 3);
 assert.equal((await call('xref', { list, devices: ['Y000'] })).devices.length, 1);
 assert.equal((await call('verify', { list, never: ['Y000 & Y001'] })).results[0].verdict, 'proved');
 const run = await call('run', { list, inputs: [{ at_ms: 50, set: { X000: true } }], watch: ['Y000'], for_ms: 200 });

@@ -101,7 +101,7 @@ async def learns_the_language(a):
 
 async def opens_and_checks(a):
     data, text = await a.call("open", path="old.il")
-    assert data["format"] == "instruction list" and data["networks"] == 2, data
+    assert data["format"] == "instruction list" and data["networks"] == 3, data
     assert "forward contactor" in text
     data, _ = await a.call("check", path="old.il")
     assert data["errors"] == 0, data
@@ -118,8 +118,8 @@ async def repairs_a_draft(a):
 
 async def looks_at_the_ladder(a):
     data, text = await a.call("view", path="old.il", devices=["Y000"])
-    assert data["networks"] == 2 and "Y000" in text, text
-    await a.fails("view", "none of the 2 networks", path="old.il", network=7)
+    assert data["networks"] == 3 and "Y000" in text, text
+    await a.fails("view", "none of the 3 networks", path="old.il", network=7)
 
 
 async def asks_who_uses_a_device(a):

@@ -10,7 +10,7 @@ use rungc_verify::model::Key;
 use rungc_verify::prove::{Decision, Options, Verdict};
 use rungc_verify::words;
 pub use rungc_verify::words::{
-    assumptions, changes, contradiction, devices, gaps, names, reason, write_story,
+    assumptions, changes, devices, gaps, names, reason, write_story,
 };
 use std::fmt::Write;
 use std::time::Duration;
