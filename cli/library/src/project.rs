@@ -99,6 +99,15 @@ impl Project {
         Project::new(PathBuf::from(name), None, read, options)
     }
 
+    /// A program in memory, of any format that its content shows, without settings. Its name appears in diagnostics.
+    ///
+    /// # Errors
+    /// What is not a program, and a PLC that does not exist.
+    pub fn from_bytes(name: &str, bytes: &[u8], options: &Options) -> Result<Self, Error> {
+        let read = rungc_frontend::read_bytes(name, bytes)?;
+        Project::new(PathBuf::from(name), None, read, options)
+    }
+
     fn new(
         file: PathBuf,
         settings: Option<Settings>,

@@ -79,7 +79,7 @@ const PROGRAM: &[Parameter] = &[
     Parameter::optional(
         "list",
         Kind::Text,
-        "instead of `path`: the text of an instruction list, such as `LD X000\\nOUT Y000\\nEND`",
+        "instead of `path`: the text of an instruction list or of drawn ladder, such as `LD X000\\nOUT Y000\\nEND`",
     ),
     MODEL,
 ];
@@ -116,9 +116,8 @@ impl Call<'_> {
         };
         match (self.arguments.text("path"), self.arguments.text("list")) {
             (Some(path), None) => self.open(path, &options),
-            (None, Some(list)) => {
-                Project::from_list("list", list, &options).map_err(|error| error.to_string())
-            }
+            (None, Some(list)) => Project::from_bytes("list", list.as_bytes(), &options)
+                .map_err(|error| error.to_string()),
             (None, None) => {
                 Err("name the program: `path` of a file, or `list` with the text of one".to_owned())
             }

@@ -269,6 +269,14 @@ fn programs_are_compared_and_converted() {
     for (form, part) in [("il", "LD X000"), ("ladder", "──"), ("plcopen", "<?xml")] {
         let (text, _, failed) = call(&options, "convert", json!({ "path": "a.il", "to": form }));
         assert!(!failed && text.contains(part), "{form}: {text}");
+        if form != "plcopen" {
+            let (text, data, _) = call(&options, "check", json!({ "list": text }));
+            assert_eq!(
+                (&data["errors"], &data["steps"]),
+                (&json!(0), &json!(10)),
+                "{text}"
+            );
+        }
     }
 }
 

@@ -9,9 +9,7 @@ use rungc_syntax::codes;
 use rungc_verify::model::Key;
 use rungc_verify::prove::{Decision, Options, Verdict};
 use rungc_verify::words;
-pub use rungc_verify::words::{
-    assumptions, changes, devices, gaps, names, reason, write_story,
-};
+pub use rungc_verify::words::{assumptions, changes, devices, gaps, names, reason, write_story};
 use std::fmt::Write;
 use std::time::Duration;
 
