@@ -185,7 +185,9 @@ pub enum Command {
     Mcp(McpArgs),
     /// Print what an assistant, or a person in a hurry, must know of the language and of rungc.
     Guide,
-    /// Write rungc.toml, the commented settings of a project.
+    /// Write rungc.toml, the commented settings of a project, and AGENTS.md for assistants.
+    ///
+    /// An AGENTS.md that is there already is kept.
     Init(InitArgs),
     /// Write an example project into a new folder, and print a tour of its commands.
     Demo(DemoArgs),

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// Arguments of `init`.
 #[derive(Args, Debug)]
 pub struct InitArgs {
-    /// The program of the project; rungc.toml is written to its folder. Default: the only program in this folder.
+    /// The program of the project; both files are written to its folder. Default: the only program in this folder.
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
 }
