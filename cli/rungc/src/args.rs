@@ -40,7 +40,7 @@ pub use mcp::McpArgs;
 pub use properties::Properties;
 pub use serve::{PageArgs, ServeArgs, ServeSettings};
 pub use start::{DemoArgs, DoctorArgs, DoctorFormat, InitArgs};
-pub use test::{CoverageFormat, TestArgs, TestFormat};
+pub use test::{CoverageFormat, Shard, TestArgs, TestFormat};
 pub use verify::VerifyArgs;
 pub use watch::{WatchArgs, WatchTo};
 pub use why::WhyArgs;
@@ -52,7 +52,6 @@ use rungc_frontend::{Encoding, ReadOptions};
 use rungc_models::{ModelId, Plc};
 use rungc_project::Check;
 use std::path::PathBuf;
-use std::str::FromStr;
 use values::{encoding, limit, model, omissible, plc, target, warning};
 
 /// Default maximum number of diagnostics in the human format.
@@ -567,29 +566,6 @@ impl Default for Reporting {
             warn: Vec::new(),
             rules: Check::default(),
             limit: DIAGNOSTICS,
-        }
-    }
-}
-
-/// One part of the cases.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Shard {
-    /// Its number, from 1.
-    pub part: usize,
-    /// The number of parts.
-    pub parts: usize,
-}
-
-impl FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let numbers = text.split_once('/');
-        let numbers =
-            numbers.and_then(|(part, parts)| Some((part.parse().ok()?, parts.parse().ok()?)));
-        match numbers {
-            Some((part, parts)) if (1..=parts).contains(&part) => Ok(Shard { part, parts }),
-            _ => Err("expected a part and the number of parts, from 1/4 to 4/4".to_string()),
         }
     }
 }

@@ -1,9 +1,10 @@
 //! Arguments of `test`.
 
-use super::{EngineChoice, Shard};
+use super::EngineChoice;
 use crate::output::OutputPath;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
+use std::str::FromStr;
 
 /// Arguments of `test`.
 #[derive(Args, Debug)]
@@ -85,4 +86,27 @@ pub enum CoverageFormat {
     Html,
     /// An LCOV tracefile, for genhtml and coverage services.
     Lcov,
+}
+
+/// One part of the cases.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Shard {
+    /// Its number, from 1.
+    pub part: usize,
+    /// The number of parts.
+    pub parts: usize,
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/');
+        let numbers =
+            numbers.and_then(|(part, parts)| Some((part.parse().ok()?, parts.parse().ok()?)));
+        match numbers {
+            Some((part, parts)) if (1..=parts).contains(&part) => Ok(Shard { part, parts }),
+            _ => Err("expected a part and the number of parts, from 1/4 to 4/4".to_string()),
+        }
+    }
 }
