@@ -69,7 +69,9 @@ export async function reportMissing(path: string): Promise<void> {
     `rungc is missing: \`${path}\` cannot be started. Install it, or set its path (rungc.path).`;
   const choice = await vscode.window.showErrorMessage(message, settings, install);
   if (choice === settings) {
-    await vscode.commands.executeCommand("workbench.action.openSettings", "rungc.path");
+    // The setting belongs to the machine that the extension runs on.
+    const name = vscode.env.remoteName === undefined ? "openSettings2" : "openRemoteSettings";
+    await vscode.commands.executeCommand(`workbench.action.${name}`, { query: "rungc.path" });
   } else if (choice === install) {
     const page = "https://github.com/rungc/rungc/blob/main/docs/src/install.md";
     await vscode.env.openExternal(vscode.Uri.parse(page));

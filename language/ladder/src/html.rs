@@ -22,15 +22,21 @@ const SCRIPT: &str = include_str!("page/page.js");
 /// Characters of a line; a page of A4 has room for them.
 const WIDTH: usize = 104;
 
-/// The page of a program.
-pub fn page(title: &str, resolved: &Resolved, ladder: &Ladder) -> String {
+/// The page of a program, with lines of about `width` characters; a page of A4 has room for 104.
+pub fn page(title: &str, resolved: &Resolved, ladder: &Ladder, width: usize) -> String {
     let mut out = String::new();
     // Writing to a string does not fail.
-    let _ = write_page(&mut out, title, resolved, ladder);
+    let _ = write_page(&mut out, title, resolved, ladder, width);
     out
 }
 
-fn write_page(out: &mut String, title: &str, resolved: &Resolved, ladder: &Ladder) -> fmt::Result {
+fn write_page(
+    out: &mut String,
+    title: &str,
+    resolved: &Resolved,
+    ladder: &Ladder,
+    width: usize,
+) -> fmt::Result {
     let title = Escaped(title);
     let model = resolved.model.name.to_uppercase();
     writeln!(
@@ -48,7 +54,7 @@ fn write_page(out: &mut String, title: &str, resolved: &Resolved, ladder: &Ladde
     write_devices(out, resolved, &uses)?;
     write_list(out, resolved, ladder, chart.as_ref())?;
     let networks: Vec<_> = (1..).zip(&ladder.networks).collect();
-    let painter = Painter::new(resolved, &networks, WIDTH);
+    let painter = Painter::new(resolved, &networks, width);
     writeln!(out, "<main id=\"ladder\" tabindex=\"-1\">")?;
     if let Some(chart) = &chart {
         let picture = chart.svg().to_string();

@@ -65,8 +65,18 @@ const RULES: [Rule; 16] = [
     rule("view", "device", |m| !is_page(m), PICTURES),
     rule("view", "around", |m| !is_page(m), PICTURES),
     rule("view", "sfc", |m| !is_page(m), PICTURES),
-    rule("view", "width", |m| !has(m, &["output"]), TERMINAL),
-    rule("view", "no_comments", |m| !has(m, &["output"]), TERMINAL),
+    rule(
+        "view",
+        "width",
+        |m| !is_document(m) && !(has(m, &["output"]) && has(m, &["sfc"])),
+        "does not apply to a document, which has the width of its paper, or to a picture of a chart",
+    ),
+    rule(
+        "view",
+        "no_comments",
+        |m| !has(m, &["output"]),
+        "only applies to the drawing in characters: leave out -o",
+    ),
     rule(
         "xref",
         "unused",
@@ -114,8 +124,6 @@ const SERVERS: [&str; 3] = ["modbus_tcp", "mc", "fx"];
 const PICTURES: &str =
     "does not apply to a page or a document, which shows all of the program: name a picture (.svg)";
 
-const TERMINAL: &str = "only applies to the drawing in characters: leave out -o";
-
 /// The first option without an effect, and what it applies to.
 pub fn idle(command: &str, matches: &ArgMatches) -> Option<String> {
     let mut rules = RULES.iter().filter(|rule| rule.command == command);
@@ -147,9 +155,18 @@ fn has(matches: &ArgMatches, options: &[&str]) -> bool {
 
 /// Returns true if `view` writes a page or a document.
 fn is_page(matches: &ArgMatches) -> bool {
+    is_document(matches) || ending(matches) == Some("html")
+}
+
+/// Returns true if `view` writes a document.
+fn is_document(matches: &ArgMatches) -> bool {
+    ending(matches) == Some("pdf")
+}
+
+/// Extension of the file that `view` writes.
+fn ending(matches: &ArgMatches) -> Option<&str> {
     let path = matches.get_one::<OutputPath>("output");
-    let ending = path.and_then(|path| path.extension()?.to_str());
-    matches!(ending, Some("html" | "pdf"))
+    path.and_then(|path| path.extension()?.to_str())
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@ pub struct ViewArgs {
     /// Draw the sequential function chart of the step ladder instead of the networks.
     #[arg(long, conflicts_with_all = ["network", "device", "around"])]
     pub sfc: bool,
-    /// Line width in characters. Default: the width of the terminal, or 120.
+    /// Line width in characters. Default: the width of the terminal, or 120; 104 in pages and pictures.
     #[arg(long, value_parser = clap::value_parser!(u16).range(40..=1000), value_name = "N")]
     pub width: Option<u16>,
     /// Omit device comments, in the terminal.

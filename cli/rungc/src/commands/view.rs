@@ -21,7 +21,7 @@ use terminal_size::{Width, terminal_size};
 /// Characters on a line where nothing says how many there are.
 const USUAL_WIDTH: u16 = 120;
 
-/// Characters on a line of a picture.
+/// Characters on a line of a picture or a page, unless `--width` sets another number.
 pub(super) const PICTURE_WIDTH: usize = 104;
 
 /// Draws programs.
@@ -80,6 +80,7 @@ fn view(
                 ladder: &ladder,
                 networks: &networks,
                 chart: chart.as_ref(),
+                width: args.width.map_or(PICTURE_WIDTH, usize::from),
             };
             write_file(&path, &sheet.file(&path)?, args.force)?;
         }
@@ -152,6 +153,8 @@ struct Sheet<'a> {
     networks: &'a [(usize, &'a Network)],
     /// The chart, if requested.
     chart: Option<&'a Chart>,
+    /// Characters on a line.
+    width: usize,
 }
 
 impl Sheet<'_> {
@@ -160,11 +163,11 @@ impl Sheet<'_> {
     fn file(&self, path: &Path) -> std::result::Result<Vec<u8>, Failure> {
         let ending = path.extension().and_then(|ending| ending.to_str());
         let text = match (ending, self.chart) {
-            (Some("html"), _) => html::page(&self.title, self.resolved, self.ladder),
+            (Some("html"), _) => html::page(&self.title, self.resolved, self.ladder, self.width),
             (Some("pdf"), _) => return Ok(pdf::document(&self.title, self.resolved, self.ladder)),
             (Some("svg"), Some(chart)) => chart.sheet().to_string(),
             (Some("svg"), None) => {
-                let painter = Painter::new(self.resolved, self.networks, PICTURE_WIDTH);
+                let painter = Painter::new(self.resolved, self.networks, self.width);
                 painter.sheet(self.networks).to_string()
             }
             _ => {

@@ -391,7 +391,7 @@ fn a_page_holds_hostile_texts_as_texts() {
         ";! X000 = </script><img src=x onerror=alert(1)>\n;! Y000 = a\u{202e}b\n; </p><b>\nLD X0\nOUT Y0\nEND\n",
     );
     let page = with(&program, |resolved, ladder| {
-        html::page("<i>title</i>", resolved, ladder)
+        html::page("<i>title</i>", resolved, ladder, 104)
     });
     for hostile in ["<img", "<i>", "<b></b>", "</p><b>", "\u{202e}"] {
         assert!(!page.contains(hostile), "{hostile}");
