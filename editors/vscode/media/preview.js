@@ -75,4 +75,20 @@ window.addEventListener("message", ({ data }) => {
   if (data.type === "draw") draw(data);
   else if (data.type === "select") select(data);
 });
-vscode.postMessage({ type: "ready" });
+
+/** Pixels of a character of a drawing, and of what is beside it: its margin and that of the page. */
+const CHARACTER = 7.3;
+const BESIDE = 62 + 40;
+
+/** Reports how many characters of a drawing fit on a line, as far as rungc draws such lines. */
+function report() {
+  const width = Math.floor((document.documentElement.clientWidth - BESIDE) / CHARACTER);
+  vscode.postMessage({ type: "size", width: Math.min(Math.max(width, 40), 160) });
+}
+
+let resized;
+window.addEventListener("resize", () => {
+  clearTimeout(resized);
+  resized = setTimeout(report, 200);
+});
+report();

@@ -13,7 +13,7 @@ const PAUSE = 250;
 
 /** Messages of the page. */
 type FromPage =
-  | { type: "ready" }
+  | { type: "size"; width: number }
   | { type: "go"; network: number; device?: string; use?: number };
 
 /** The panel with the ladder, which follows the active editor. */
@@ -22,7 +22,8 @@ export class Preview implements vscode.Disposable {
   private document: vscode.TextDocument | undefined;
   private found: { version: number; networks: Network[] } | undefined;
   private timer: NodeJS.Timeout | undefined;
-  private isReady = false;
+  /** Characters on a line of the page, once it is ready. */
+  private width: number | undefined;
   private readonly subscriptions: vscode.Disposable[] = [];
 
   constructor(private readonly media: vscode.Uri) {
@@ -51,7 +52,7 @@ export class Preview implements vscode.Disposable {
       this.panel.onDidDispose(() => {
         this.panel = undefined;
         this.document = undefined;
-        this.isReady = false;
+        this.width = undefined;
       });
       this.panel.webview.html = this.page(this.panel.webview);
     } else {
@@ -101,11 +102,11 @@ export class Preview implements vscode.Disposable {
   /** Draws the text as it is in the editor. */
   private async draw(): Promise<void> {
     const document = this.document;
-    if (!document || !this.panel || !this.isReady) {
+    if (!document || !this.panel || this.width === undefined) {
       return;
     }
     try {
-      const drawn = await draw(document);
+      const drawn = await draw(document, this.width);
       if (document !== this.document) {
         return;
       }
@@ -144,9 +145,11 @@ export class Preview implements vscode.Disposable {
   }
 
   private async take(message: FromPage): Promise<void> {
-    if (message.type === "ready") {
-      this.isReady = true;
-      await this.draw();
+    if (message.type === "size") {
+      if (this.width !== message.width) {
+        this.width = message.width;
+        await this.draw();
+      }
     } else {
       await this.go(message.network, message.device, message.use ?? 0);
     }
@@ -187,12 +190,12 @@ interface Drawn {
   message?: string;
 }
 
-async function draw(document: vscode.TextDocument): Promise<Drawn> {
+async function draw(document: vscode.TextDocument, width: number): Promise<Drawn> {
   const folder = await fs.mkdtemp(path.join(os.tmpdir(), "rungc-"));
   try {
     const file = path.join(folder, "ladder.html");
     const cwd = document.uri.scheme === "untitled" ? undefined : path.dirname(document.uri.fsPath);
-    const args = ["view", "-", "--output", file, "--force", "--quiet"];
+    const args = ["view", "-", "--width", String(width), "--output", file, "--force", "--quiet"];
     const output = await rungc(args, { cwd, input: document.getText() });
     const page = await fs.readFile(file, "utf8").catch(() => "");
     const ladder = /<main id="ladder"[^>]*>([\s\S]*)<\/main>/.exec(page)?.[1];

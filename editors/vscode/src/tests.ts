@@ -61,9 +61,15 @@ export class Tests implements vscode.Disposable {
   }
 
   private async update(uri: vscode.Uri): Promise<void> {
-    if (!/\/(node_modules|target)\//.test(uri.path)) {
+    if (/\/(node_modules|target)\//.test(uri.path)) {
+      return;
+    }
+    try {
       const content = await vscode.workspace.fs.readFile(uri);
       this.put(uri, new TextDecoder().decode(content));
+    } catch {
+      // It has just been removed, or cannot be read.
+      this.controller.items.delete(uri.toString());
     }
   }
 

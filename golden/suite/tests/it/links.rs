@@ -17,7 +17,7 @@ fn files(extension: &str) -> Vec<PathBuf> {
         let name = entry.file_name().to_string_lossy();
         let hidden = name.starts_with('.') && entry.depth() > 0;
         let is_book = entry.path().ends_with("docs/book");
-        !hidden && !is_book && name != "target"
+        !hidden && !is_book && name != "target" && name != "node_modules"
     };
     let entries = WalkDir::new(root()).into_iter().filter_entry(is_source);
     let paths = entries.map(|entry| entry.unwrap().into_path());

@@ -77,7 +77,14 @@ const RELATIVE: &[&str] = &[
 const RELATIVE_SHARE: usize = 4;
 
 /// Folders and files without prose of ours.
-const LEFT_OUT: &[&str] = &["target", "snapshots", "conformance", "book", "wording.rs"];
+const LEFT_OUT: &[&str] = &[
+    "target",
+    "node_modules",
+    "snapshots",
+    "conformance",
+    "book",
+    "wording.rs",
+];
 
 fn root() -> PathBuf {
     PathBuf::from(env!("RUNGC_ROOT"))
