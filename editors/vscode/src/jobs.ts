@@ -14,6 +14,8 @@ export interface File {
   uri: vscode.Uri;
   name: string;
   cwd: string;
+  /** True if it has cases, false if it has properties. */
+  hasCases: boolean;
   items: vscode.TestItem[];
   /** True if these are all of the file. */
   isWhole: boolean;
@@ -76,32 +78,43 @@ interface Verdicts {
   verification?: { properties: Verdict[] };
 }
 
-/** Runs the cases of test files. */
-export const runCases: Job = async ({ run, token, files }) => {
-  await each({ run, token, files }, async (file) => {
-    const args = ["test", file.name, "--format", "json", ...filter(file)];
-    const output = await rungc(args, { cwd: file.cwd, token });
-    const results = parsed<Results>(output);
-    log(run, output.stderr);
-    for (const mistake of results.mistakes ?? []) {
-      const at = new vscode.Position(mistake.line - 1, mistake.column - 1);
-      file.items.forEach((item) => run.errored(item, message(mistake.message, file.uri, at)));
-    }
-    const cases = results.cases ?? [];
-    for (const item of results.mistakes ? [] : file.items) {
-      const own = cases.filter(({ name }) => {
-        const found = named(file.found, name);
-        return found !== undefined && file.of(found) === item;
-      });
+/** Runs the cases of test files, and decides the properties of settings. */
+export const runAll: Job = async (request) => {
+  for (const file of request.files) {
+    await guarded(request, file, file.hasCases ? runCases : prove);
+  }
+};
+
+/** Runs the cases of a test file. */
+async function runCases({ run, token }: Request, file: File): Promise<void> {
+  const args = ["test", file.name, "--format", "json", ...filter(file)];
+  const output = await rungc(args, { cwd: file.cwd, token });
+  const { cases = [], mistakes = [] } = parsed<Results>(output);
+  log(run, output.stderr);
+  for (const item of file.items) {
+    const own = cases.filter(({ name }) => {
+      const found = named(file.found, name);
+      return found !== undefined && file.of(found) === item;
+    });
+    if (mistakes.length > 0) {
+      const texts = mistakes.map(({ message: text, line, column }) =>
+        message(text, file.uri, new vscode.Position(line - 1, column - 1)),
+      );
+      run.errored(item, texts);
+    } else {
       judge(run, item, own);
     }
-  });
-};
+  }
+}
 
 /** Runs the cases, and reports what they execute of their programs. */
 export const runCoverage: Job = async (request) => {
-  await runCases(request);
-  const { run, token, files } = request;
+  const { run, token } = request;
+  const files = request.files.filter(({ hasCases }) => hasCases);
+  // Properties have no coverage.
+  const others = request.files.filter(({ hasCases }) => !hasCases);
+  others.flatMap(({ items }) => items).forEach((item) => run.skipped(item));
+  await runAll({ ...request, files });
   const coverage: Coverage = new Map();
   const folder = await fs.mkdtemp(path.join(os.tmpdir(), "rungc-"));
   try {
@@ -129,53 +142,55 @@ export const runCoverage: Job = async (request) => {
 };
 
 /** Decides the properties of settings. */
-export const prove: Job = async (request) => {
-  await each(request, async (file) => {
-    const { run, token } = request;
-    const output = await rungc(["verify", "--format", "json"], { cwd: file.cwd, token });
-    const { diagnostics = [], verification } = parsed<Verdicts>(output);
-    log(run, output.stderr);
-    const errors = diagnostics.filter(({ severity }) => severity === "error");
-    for (const item of file.items) {
-      const found = file.found.find((one) => file.of(one) === item);
-      const verdicts = found ? decided(found, file.found, verification?.properties ?? []) : [];
-      const failed = verdicts.filter(({ holds }) => holds !== true);
-      const texts = failed.map((verdict) => message(story(verdict), file.uri, item.range?.start));
-      if (verdicts.length === 0) {
-        const why = errors.map((error) => error.message).join("\n") || "rungc has not decided it";
-        run.errored(item, message(why, file.uri, item.range?.start));
-      } else if (failed.some(({ holds }) => holds === false)) {
-        run.failed(item, texts);
-      } else if (failed.length > 0) {
-        run.errored(item, texts);
-      } else {
-        run.passed(item);
-      }
+async function prove({ run, token }: Request, file: File): Promise<void> {
+  const output = await rungc(["verify", "--format", "json"], { cwd: file.cwd, token });
+  const { diagnostics = [], verification } = parsed<Verdicts>(output);
+  log(run, output.stderr);
+  const errors = diagnostics.filter(({ severity }) => severity === "error");
+  for (const item of file.items) {
+    const at = item.range?.start;
+    const found = file.found.find((one) => file.of(one) === item);
+    const verdicts = found ? decided(found, file.found, verification?.properties ?? []) : [];
+    const failed = verdicts.filter(({ holds }) => holds !== true);
+    const texts = failed.map((verdict) => message(story(verdict), file.uri, at));
+    if (verdicts.length === 0) {
+      const why = errors.map((error) => error.message).join("\n") || "rungc has not decided it";
+      run.errored(item, message(why, file.uri, at));
+    } else if (failed.some(({ holds }) => holds === false)) {
+      run.failed(item, texts);
+    } else if (failed.length > 0) {
+      run.errored(item, texts);
+    } else {
+      run.passed(item);
     }
-  });
-};
+  }
+}
 
-/** Runs a job for each file; where it fails, its tests have an error. */
-async function each({ run, token, files }: Request, job: (file: File) => Promise<void>) {
-  for (const file of files) {
+/** Runs the tests of a file; where that fails, they have an error. */
+async function guarded(
+  request: Request,
+  file: File,
+  job: (request: Request, file: File) => Promise<void>,
+): Promise<void> {
+  const { run, token } = request;
+  const skip = () => file.items.forEach((item) => run.skipped(item));
+  if (token.isCancellationRequested) {
+    skip();
+    return;
+  }
+  file.items.forEach((item) => run.started(item));
+  try {
+    await job(request, file);
+  } catch (error) {
     if (token.isCancellationRequested) {
-      file.items.forEach((item) => run.skipped(item));
-      continue;
+      skip();
+      return;
     }
-    file.items.forEach((item) => run.started(item));
-    try {
-      await job(file);
-    } catch (error) {
-      if (token.isCancellationRequested) {
-        file.items.forEach((item) => run.skipped(item));
-        continue;
-      }
-      if (error instanceof Missing) {
-        void reportMissing(error.path);
-      }
-      const text = error instanceof Error ? error.message : String(error);
-      file.items.forEach((item) => run.errored(item, new vscode.TestMessage(text)));
+    if (error instanceof Missing) {
+      void reportMissing(error.path);
     }
+    const text = error instanceof Error ? error.message : String(error);
+    file.items.forEach((item) => run.errored(item, new vscode.TestMessage(text)));
   }
 }
 

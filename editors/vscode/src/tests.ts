@@ -4,7 +4,7 @@ import * as path from "node:path";
 import * as vscode from "vscode";
 import { type Found, cases, properties } from "./found";
 import { details } from "./coverage";
-import { type Job, prove, runCases, runCoverage } from "./jobs";
+import { type File, type Job, runAll, runCoverage } from "./jobs";
 
 /** Files with cases or properties, without those of tools. */
 const FILES = "**/{*.plctest.toml,rungc.toml}";
@@ -13,26 +13,20 @@ const LEFT_OUT = "**/{node_modules,target}/**";
 /** Tests of the workspace. */
 export class Tests implements vscode.Disposable {
   private readonly controller = vscode.tests.createTestController("rungc", "rungc");
-  private readonly tags = {
-    case: new vscode.TestTag("case"),
-    property: new vscode.TestTag("property"),
-  };
   private readonly found = new WeakMap<vscode.TestItem, Found>();
   private readonly subscriptions: vscode.Disposable[] = [this.controller];
 
   constructor() {
     const { Run, Coverage } = vscode.TestRunProfileKind;
-    const add = (label: string, kind: vscode.TestRunProfileKind, job: Job, tag: vscode.TestTag) =>
+    const add = (label: string, kind: vscode.TestRunProfileKind, job: Job) =>
       this.controller.createRunProfile(
         label,
         kind,
-        (request, token) => this.run(request, token, job, tag),
+        (request, token) => this.run(request, token, job),
         true,
-        tag,
       );
-    add("Run", Run, runCases, this.tags.case);
-    add("Prove", Run, prove, this.tags.property);
-    const coverage = add("Run with Coverage", Coverage, runCoverage, this.tags.case);
+    add("Run", Run, runAll);
+    const coverage = add("Run with Coverage", Coverage, runCoverage);
     coverage.loadDetailedCoverage = async (_run, file) => details(file);
     this.controller.resolveHandler = (item) => (item ? this.read(item) : this.discover());
     this.controller.refreshHandler = () => this.discover();
@@ -96,10 +90,8 @@ export class Tests implements vscode.Disposable {
       this.controller.items.delete(id);
       return;
     }
-    const tags = [isTestFile ? this.tags.case : this.tags.property];
     const label = vscode.workspace.asRelativePath(uri);
     const file = this.controller.items.get(id) ?? this.controller.createTestItem(id, label, uri);
-    file.tags = tags;
     const items = all.map((one, i) => {
       const isTwice = all.findIndex((other) => other.label === one.label) !== i;
       const ofTest = `${id}::${one.label}${isTwice ? ` ${i}` : ""}`;
@@ -107,7 +99,6 @@ export class Tests implements vscode.Disposable {
         file.children.get(ofTest) ?? this.controller.createTestItem(ofTest, one.label, uri);
       item.description = one.detail;
       item.range = new vscode.Range(one.line, 0, one.line, 0);
-      item.tags = tags;
       this.found.set(item, one);
       return item;
     });
@@ -120,7 +111,6 @@ export class Tests implements vscode.Disposable {
     request: vscode.TestRunRequest,
     token: vscode.CancellationToken,
     job: Job,
-    tag: vscode.TestTag,
   ): Promise<void> {
     const run = this.controller.createTestRun(request);
     try {
@@ -128,7 +118,7 @@ export class Tests implements vscode.Disposable {
         run.appendOutput("Tests run only in a trusted workspace.\r\n");
         return;
       }
-      const files = this.requested(request, tag);
+      const files = this.requested(request);
       files.flatMap(({ items }) => items).forEach((item) => run.enqueued(item));
       await job({ run, token, files });
     } finally {
@@ -137,13 +127,12 @@ export class Tests implements vscode.Disposable {
   }
 
   /** The requested tests, by file. */
-  private requested(request: vscode.TestRunRequest, tag: vscode.TestTag) {
+  private requested(request: vscode.TestRunRequest): File[] {
     const top: vscode.TestItem[] = [];
     this.controller.items.forEach((item) => top.push(item));
     const isIn = (list: readonly vscode.TestItem[] | undefined, item: vscode.TestItem) =>
       list?.some((one) => one === item || one === item.parent) ?? false;
     const isWanted = (item: vscode.TestItem) =>
-      item.tags.some((one) => one.id === tag.id) &&
       !isIn(request.exclude, item) &&
       (request.include === undefined || isIn(request.include, item));
     return top.flatMap((file) => {
@@ -154,10 +143,17 @@ export class Tests implements vscode.Disposable {
         return [];
       }
       const found = items.flatMap((item) => this.found.get(item) ?? []);
-      const of = (one: Found) => items.find((item) => this.found.get(item) === one);
       const name = path.basename(file.uri.fsPath);
-      const cwd = path.dirname(file.uri.fsPath);
-      return [{ uri: file.uri, name, cwd, items: wanted, isWhole: wanted.length === items.length, found, of }];
+      return {
+        uri: file.uri,
+        name,
+        cwd: path.dirname(file.uri.fsPath),
+        hasCases: name !== "rungc.toml",
+        items: wanted,
+        isWhole: wanted.length === items.length,
+        found,
+        of: (one: Found) => items.find((item) => this.found.get(item) === one),
+      };
     });
   }
 

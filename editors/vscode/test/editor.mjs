@@ -191,6 +191,12 @@ export class Editor {
     });
   }
 
+  /** Opens all folds of the Test Explorer. */
+  async expandTests() {
+    const closed = this.page.locator('.test-explorer .monaco-list-row[aria-expanded="false"] .monaco-tl-twistie');
+    while ((await closed.count()) > 0) await closed.first().click();
+  }
+
   /** Rows of the Test Explorer, as screen readers get them. */
   async tests() {
     const rows = this.page.locator(".test-explorer .monaco-list-row");

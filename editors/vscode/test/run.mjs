@@ -160,7 +160,7 @@ const checks = {
     await editor.command("Testing: Focus on Test Explorer View");
     await soon("files", async () => (await editor.tests()).length >= 3);
     await editor.command("Test: Run All Tests");
-    await editor.command("Testing: Expand All Tests").catch(() => undefined);
+    await editor.expandTests();
     await soon("verdicts", async () => {
       const tests = await editor.tests();
       const has = (name, state) => tests.some((row) => row?.includes(name) && row.includes(state));
@@ -229,7 +229,10 @@ async function main() {
     editor.install(path.join(dist, vsix));
     await editor.start();
     await editor.open(folder);
-    for (const [name, check] of Object.entries(checks)) {
+    // Those that an argument selects; the first one starts the server.
+    const wanted = new RegExp(process.argv[2] ?? "");
+    for (const [i, [name, check]] of Object.entries(checks).entries()) {
+      if (i > 0 && !wanted.test(name)) continue;
       const start = Date.now();
       try {
         await check();
