@@ -5,10 +5,8 @@
 export interface Found {
   /** Line that names it, from 0. */
   line: number;
-  /** Name of a case; of a property its name, requirement or condition. */
+  /** Name of a case; of a property its requirement, with its name, text or condition. */
   label: string;
-  /** Text that a property has in addition. */
-  detail: string;
   /** Names by which results may call it. */
   names: string[];
   /** Requirement of a property. */
@@ -29,7 +27,7 @@ export function cases(text: string): Found[] {
   return tables(text, "case").flatMap(({ keys }) => {
     const name = keys.get("name");
     const label = name?.value ?? "";
-    return name ? [{ line: name.line, label, detail: "", names: [label], requirement: "" }] : [];
+    return name ? [{ line: name.line, label, names: [label], requirement: "" }] : [];
   });
 }
 
@@ -46,8 +44,7 @@ export function properties(text: string): Found[] {
     return [
       {
         line,
-        label: [requirement, name || condition].filter(Boolean).join(": "),
-        detail: value("text"),
+        label: [requirement, name || value("text") || condition].filter(Boolean).join(": "),
         names: name ? [`${name}: ${condition}`, name] : [condition],
         requirement,
       },

@@ -80,6 +80,7 @@ interface Verdicts {
 
 /** Runs the cases of test files, and decides the properties of settings. */
 export const runAll: Job = async (request) => {
+  request.files.flatMap(({ items }) => items).forEach((item) => request.run.enqueued(item));
   for (const file of request.files) {
     await guarded(request, file, file.hasCases ? runCases : prove);
   }
@@ -110,10 +111,8 @@ async function runCases({ run, token }: Request, file: File): Promise<void> {
 /** Runs the cases, and reports what they execute of their programs. */
 export const runCoverage: Job = async (request) => {
   const { run, token } = request;
+  // Properties have no coverage, and keep their verdicts.
   const files = request.files.filter(({ hasCases }) => hasCases);
-  // Properties have no coverage.
-  const others = request.files.filter(({ hasCases }) => !hasCases);
-  others.flatMap(({ items }) => items).forEach((item) => run.skipped(item));
   await runAll({ ...request, files });
   const coverage: Coverage = new Map();
   const folder = await fs.mkdtemp(path.join(os.tmpdir(), "rungc-"));

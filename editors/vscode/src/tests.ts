@@ -97,7 +97,6 @@ export class Tests implements vscode.Disposable {
       const ofTest = `${id}::${one.label}${isTwice ? ` ${i}` : ""}`;
       const item =
         file.children.get(ofTest) ?? this.controller.createTestItem(ofTest, one.label, uri);
-      item.description = one.detail;
       item.range = new vscode.Range(one.line, 0, one.line, 0);
       this.found.set(item, one);
       return item;
@@ -118,9 +117,7 @@ export class Tests implements vscode.Disposable {
         run.appendOutput("Tests run only in a trusted workspace.\r\n");
         return;
       }
-      const files = this.requested(request);
-      files.flatMap(({ items }) => items).forEach((item) => run.enqueued(item));
-      await job({ run, token, files });
+      await job({ run, token, files: this.requested(request) });
     } finally {
       run.end();
     }

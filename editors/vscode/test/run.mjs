@@ -164,7 +164,8 @@ const checks = {
     await soon("verdicts", async () => {
       const tests = await editor.tests();
       const has = (name, state) => tests.some((row) => row?.includes(name) && row.includes(state));
-      return has("stays dark", "Failed") && has("lights", "Passed") && has("never moves", "Failed");
+      assert.ok(has("stays dark", "Failed") && has("lights", "Passed") && has("never moves", "Failed"), tests.join("\n"));
+      return true;
     });
     await editor.screen("tests");
   },
@@ -181,8 +182,8 @@ const checks = {
 
   async "coverage is shown beside the program"() {
     await editor.command("Test: Run All Tests with Coverage");
-    const row = editor.page.locator(".test-coverage-list .monaco-list-row, .coverage-view .monaco-list-row");
-    await row.filter({ hasText: "press.il" }).first().waitFor();
+    const pane = editor.page.locator(".pane").filter({ has: editor.page.locator(".pane-header", { hasText: "Test Coverage" }) });
+    await pane.locator(".monaco-list-row").filter({ hasText: "press.il" }).waitFor();
     await editor.file("press.il");
     await editor.page.locator(".coverage-deco-gutter").first().waitFor();
     await editor.screen("coverage");
