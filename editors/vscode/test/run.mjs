@@ -208,13 +208,19 @@ const checks = {
     await editor.screen("damaged");
   },
 
-  async "all of it is legible in a light theme"() {
-    editor.set({ "workbench.colorTheme": "Default Light Modern" });
-    await editor.page.locator(".monaco-workbench.vs").waitFor();
+  async "colours follow the theme"() {
     await editor.file("press.il");
+    await editor.command("rungc: Open Ladder to the Side");
     await editor.at(20, 5);
-    await editor.webview("section[aria-current]");
-    await editor.screen("light");
+    const frame = await editor.webview("section[aria-current]");
+    const text = () => frame.locator("body").evaluate((body) => getComputedStyle(body).color);
+    let before = await text();
+    for (const theme of ["Light Modern", "Default High Contrast"]) {
+      editor.set({ "workbench.colorTheme": theme });
+      await soon(theme, async () => (await text()) !== before);
+      before = await text();
+      await editor.screen(theme.toLowerCase().replaceAll(" ", "-"));
+    }
   },
 };
 
@@ -225,7 +231,7 @@ async function main() {
   if (!vsix) throw new Error("no package: npm run package");
   const folder = workspace();
   try {
-    editor.set({ "workbench.colorTheme": "Default Dark Modern" });
+    editor.set({ "workbench.colorTheme": "Dark Modern" });
     editor.set({ "rungc.path": "/nowhere/rungc" }, "Machine");
     editor.install(path.join(dist, vsix));
     await editor.start();
