@@ -81,10 +81,16 @@ export class Editor {
     execFileSync(this.node, this.server("--install-extension", vsix), { stdio: "pipe" });
   }
 
-  /** Changes settings of the user, or of the machine; the editor notices. */
+  /** Changes settings of the user, which the editor reads when it starts, or of the machine. */
   set(settings, of = "User") {
     const all = of === "User" ? { ...QUIET, ...settings } : settings;
     writeFileSync(`${this.home}/data/${of}/settings.json`, JSON.stringify(all));
+  }
+
+  /** Changes settings of the open folder. */
+  setHere(settings) {
+    mkdirSync(path.join(this.folder, ".vscode"), { recursive: true });
+    writeFileSync(path.join(this.folder, ".vscode/settings.json"), JSON.stringify(settings));
   }
 
   async start() {
@@ -102,6 +108,7 @@ export class Editor {
 
   /** Opens a folder. */
   async open(folder) {
+    this.folder = folder;
     await this.page.goto(`${this.address}/?folder=${encodeURIComponent(folder)}`);
     await this.page.waitForSelector(".explorer-folders-view .monaco-list-row");
   }

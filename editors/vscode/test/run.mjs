@@ -216,7 +216,7 @@ const checks = {
     const text = () => frame.locator("body").evaluate((body) => getComputedStyle(body).color);
     let before = await text();
     for (const theme of ["Light Modern", "Default High Contrast"]) {
-      editor.set({ "workbench.colorTheme": theme });
+      editor.setHere({ "workbench.colorTheme": theme });
       await soon(theme, async () => (await text()) !== before);
       before = await text();
       await editor.screen(theme.toLowerCase().replaceAll(" ", "-"));
