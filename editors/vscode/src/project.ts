@@ -82,7 +82,14 @@ function failure(message: string): string {
   const policy = "default-src 'none'; style-src 'unsafe-inline'";
   return `<!DOCTYPE html>
 <html lang="en">
-<head><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="${policy}"><title>rungc</title></head>
-<body><h1 style="font-size: 1.2em">This project cannot be shown as a list</h1><pre style="white-space: pre-wrap">${text}</pre></body>
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="${policy}">
+<title>rungc</title>
+</head>
+<body>
+<h1 style="font-size: 1.2em">This project cannot be shown as a list</h1>
+<pre style="white-space: pre-wrap">${text}</pre>
+</body>
 </html>`;
 }

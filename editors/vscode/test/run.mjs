@@ -69,7 +69,7 @@ const editor = new Editor({
   screens,
 });
 
-/** Checks in their order: each goes on with what the one before has left. */
+/** Checks in their order: each continues with what the one before has left. */
 const checks = {
   async "an executable that is missing is reported"() {
     await editor.file("wrong.il");
@@ -164,7 +164,8 @@ const checks = {
     await soon("verdicts", async () => {
       const tests = await editor.tests();
       const has = (name, state) => tests.some((row) => row?.includes(name) && row.includes(state));
-      assert.ok(has("stays dark", "Failed") && has("lights", "Passed") && has("never moves", "Failed"), tests.join("\n"));
+      const verdicts = [has("lights", "Passed"), has("stays dark", "Failed"), has("never moves", "Failed")];
+      assert.ok(verdicts.every(Boolean), tests.join("\n"));
       return true;
     });
     await editor.screen("tests");
@@ -182,7 +183,8 @@ const checks = {
 
   async "coverage is shown beside the program"() {
     await editor.command("Test: Run All Tests with Coverage");
-    const pane = editor.page.locator(".pane").filter({ has: editor.page.locator(".pane-header", { hasText: "Test Coverage" }) });
+    const header = editor.page.locator(".pane-header", { hasText: "Test Coverage" });
+    const pane = editor.page.locator(".pane").filter({ has: header });
     await pane.locator(".monaco-list-row").filter({ hasText: "press.il" }).waitFor();
     await editor.file("press.il");
     await editor.page.locator(".coverage-deco-gutter").first().waitFor();

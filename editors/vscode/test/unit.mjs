@@ -48,7 +48,8 @@ test("rows belong to their case", () => {
 });
 
 test("properties are found, and their verdicts", () => {
-  const all = properties(`[[property]]\nname = "n"\nnever = "Y000"\n[[property]]\nid = "R1"\ntext = "t"\nalways = '"a" = M1'
+  const all = properties(`[[property]]\nname = "n"\nnever = "Y000"
+[[property]]\nid = "R1"\ntext = "t"\nalways = '"a" = M1'
 [[property]]\nid = "R2"\ntext = "tests only"\n[[property]]\nid = "R3"\nuse = "two-hand"\n[verify]\nnever = 1\n`);
   const shown = all.map(({ line, label }) => [line, label]);
   assert.deepEqual(shown, [[0, "n"], [3, "R1: t"], [10, "R3: use two-hand"]]);
@@ -64,7 +65,9 @@ test("properties are found, and their verdicts", () => {
 });
 
 test("networks are found by their lines", () => {
-  const at = (name, first, last, children) => ({ name, range: { start: { line: first }, end: { line: last } }, children });
+  const at = (name, first, last, children) => {
+    return { name, range: { start: { line: first }, end: { line: last } }, children };
+  };
   const found = networks([at("1: OUT Y000", 2, 4), at("P1", 6, 12, [at("2: SRET", 6, 7), at("3: END", 9, 12)])]);
   assert.deepEqual(found.map(({ number }) => number), [1, 2, 3]);
   assert.deepEqual([0, 3, 5, 8, 99].map((line) => networkAt(found, line).number), [1, 1, 2, 3, 3]);
