@@ -40,12 +40,12 @@ export function plain(device: string): string {
   return device.toUpperCase().replace(/^([A-Z]+)0+(?=\d)/, "$1");
 }
 
-/** Places of a device in a line: columns of the words that name it. */
-export function places(line: string, device: string): [number, number][] {
+/** Places of a device in a line: columns at which words begin that name it. */
+export function places(line: string, device: string): number[] {
   const comment = line.search(/;|\/\//);
   const code = comment < 0 ? line : line.slice(0, comment);
   const words = code.matchAll(/(?<![A-Za-z0-9_])(?:K[1-8](?=[XYMSxyms]))?([A-Za-z]+\d+)/g);
   return [...words]
     .filter((word) => plain(word[1] ?? "") === plain(device))
-    .map((word) => [word.index, word.index + word[0].length]);
+    .map((word) => word.index);
 }

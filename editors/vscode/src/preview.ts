@@ -163,17 +163,17 @@ export class Preview implements vscode.Disposable {
     if (!document || !network) {
       return;
     }
-    const uses: vscode.Range[] = [];
+    const uses: vscode.Position[] = [];
     for (let line = network.first; device && line <= network.last; line++) {
-      for (const [start, end] of places(document.lineAt(line).text, device)) {
-        uses.push(new vscode.Range(line, start, line, end));
+      for (const column of places(document.lineAt(line).text, device)) {
+        uses.push(new vscode.Position(line, column));
       }
     }
-    const target = uses[use] ?? uses[0] ?? new vscode.Range(network.first, 0, network.first, 0);
+    const target = uses[use] ?? uses[0] ?? new vscode.Position(network.first, 0);
     const visible = vscode.window.visibleTextEditors.find((one) => one.document === document);
     await vscode.window.showTextDocument(document, {
       viewColumn: visible?.viewColumn ?? vscode.ViewColumn.One,
-      selection: target,
+      selection: new vscode.Range(target, target),
     });
   }
 

@@ -182,6 +182,11 @@ export class Editor {
     return (await this.lines()).join("\n");
   }
 
+  /** Place of the cursor, as the status bar shows it. */
+  async place() {
+    return (await this.page.locator('[id="status.editor.selection"]').textContent()).trim();
+  }
+
   /** Numbers of errors and warnings in the status bar. */
   async problems() {
     const item = this.page.locator('[id="status.problems"] [aria-label]').first();

@@ -63,6 +63,14 @@ function workspace() {
   return folder;
 }
 
+/** The element farthest to the right. */
+async function rightmost(elements) {
+  const all = await elements.all();
+  const boxes = await Promise.all(all.map((one) => one.boundingBox()));
+  const places = boxes.map((box) => box.x);
+  return all[places.indexOf(Math.max(...places))];
+}
+
 const editor = new Editor({
   modules: variable("RUNGC_CODE_SERVER"),
   browser: process.env.RUNGC_CHROMIUM ?? "/usr/bin/chromium",
@@ -142,8 +150,13 @@ const checks = {
 
   async "a click in the ladder moves the cursor"() {
     const frame = await editor.webview("#ladder section");
-    await frame.locator("section#n1 g[data-device]").first().click();
-    await soon("the first network is the current one", () => frame.locator("section#n1[aria-current]").count());
+    const coil = await rightmost(frame.locator('section#n2 g[data-device="M1"]'));
+    await coil.click();
+    await soon("the place of the coil", async () => (await editor.place()) === "Ln 24, Col 5");
+    assert.equal(await frame.locator("section#n2[aria-current]").count(), 1);
+    await frame.locator("section#n1").focus();
+    await frame.locator("section#n1").press("Enter");
+    await soon("the first network", async () => (await editor.place()) === "Ln 12, Col 1");
   },
 
   async "the ladder follows the text"() {

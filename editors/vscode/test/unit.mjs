@@ -77,8 +77,8 @@ test("networks are found by their lines", () => {
 test("devices are found however they are written", () => {
   assert.equal(plain("x007"), "X7");
   assert.equal(plain("D0"), "D0");
-  assert.deepEqual(places("MOV K2X0 D10Z1 ; X0", "X000"), [[4, 8]]);
-  assert.deepEqual(places("MOV D1 D1", "D1"), [[4, 6], [7, 9]]);
+  assert.deepEqual(places("MOV K2X0 D10Z1 ; X0", "X000"), [4]);
+  assert.deepEqual(places("MOV D1 D1", "D1"), [4, 7]);
   assert.deepEqual(places("LD X10", "X1"), []);
 });
 
