@@ -153,7 +153,7 @@ const checks = {
     const coil = await rightmost(frame.locator('section#n2 g[data-device="M1"]'));
     await coil.click();
     await soon("the place of the coil", async () => (await editor.place()) === "Ln 24, Col 5");
-    assert.equal(await frame.locator("section#n2[aria-current]").count(), 1);
+    await soon("the second network", () => frame.locator("section#n2[aria-current]").count());
     await frame.locator("section#n1").focus();
     await frame.locator("section#n1").press("Enter");
     await soon("the first network", async () => (await editor.place()) === "Ln 12, Col 1");
