@@ -48,6 +48,7 @@ mod plc;
 mod program;
 mod project;
 pub mod settings;
+pub mod structured;
 pub mod trace;
 pub mod unproven;
 pub mod watch;

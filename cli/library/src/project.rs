@@ -1,6 +1,8 @@
 //! A program with its settings, and what a check finds in it.
 
-use crate::{Diagnostic, Error, Levels, Names, Program, other_model, settings, unproven};
+use crate::{
+    Diagnostic, Error, Levels, Names, Program, other_model, settings, structured, unproven,
+};
 use rungc_analysis::resolve::resolve;
 use rungc_frontend::{Read, ReadOptions, Unsaved};
 use rungc_ladder::{build, svg::Painter, text};
@@ -121,6 +123,7 @@ impl Project {
         })?;
         let plc = chosen.or_else(|| settings.as_ref().and_then(settings::plc));
         unproven::suggest(&mut read, plc.map(|plc| plc.model));
+        structured::compile(&mut read, plc.map(|plc| plc.model));
         if let Some(settings) = &settings {
             settings::complete(settings, &file, &mut read.program, plc)?;
         }

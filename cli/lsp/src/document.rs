@@ -103,7 +103,7 @@ impl Text {
     /// that is written like the place; other formats have their places at the beginning.
     pub(crate) fn range_in(&self, program: &Program, span: Span) -> Range {
         match program.kind {
-            SourceKind::Il | SourceKind::Ladder => self.range(span),
+            SourceKind::Il | SourceKind::Ladder | SourceKind::StructuredText => self.range(span),
             SourceKind::Csv => {
                 let line = |at: u32| program.source.line(at).saturating_sub(1);
                 let first = line(span.start);

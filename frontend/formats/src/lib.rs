@@ -18,6 +18,7 @@ mod plcopen;
 pub mod print;
 mod recognise;
 mod search;
+mod structured;
 mod table;
 mod text;
 mod unsaved;
@@ -114,7 +115,7 @@ pub enum ReadError {
     },
     /// A folder that holds no program.
     #[error(
-        "no program found in `{path}` (looked for `.il`, list exports, GX Developer and GX Works2 projects, \
+        "no program found in `{path}` (looked for `.il`, `.st`, list exports, GX Developer and GX Works2 projects, \
          PLCopen XML, `.pmw` and images)"
     )]
     NoProject {
@@ -177,7 +178,7 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> 
     }
     let is_list = file
         .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("il"));
+        .is_some_and(|e| e.eq_ignore_ascii_case("il") || e.eq_ignore_ascii_case("st"));
     let folder = file.parent().filter(|_| !is_list && !gx::is_ole(&bytes));
     let comments = folder.and_then(|folder| find(folder, &["COMMENT.csv"]));
     let of_comments = comments
@@ -291,6 +292,7 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
     text.truncate(text.trim_end_matches(char::from(encoding::DOS_END)).len());
     let mut read = match csv::detect(&text) {
         _ if plcopen::is_project(&text) => plcopen::read(name, &text, &options.names),
+        _ if structured::detect(name, &text) => structured::read(name, &text),
         Some(layout) => csv::read(name, &text, layout),
         None if ladder_text::detect(&text) => ladder_text::read(name, &text),
         None => read_text(name, &text),
@@ -307,7 +309,8 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
 
 /// Rejects a file that is recognised as something other than a program.
 fn check_kind(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<(), ReadError> {
-    match recognise(name, bytes).filter(|_| !options.image) {
+    let is_program = options.image || structured::is_named(name) && !bytes.is_empty();
+    match recognise(name, bytes).filter(|_| !is_program) {
         Some(Recognised { what, help }) => Err(ReadError::NoProgram {
             name: name.to_owned(),
             what,

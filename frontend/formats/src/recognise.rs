@@ -2,7 +2,7 @@
 
 mod texts;
 
-use crate::{csv, encoding, gx, il, image, ladder_text, plcopen};
+use crate::{csv, encoding, gx, il, image, ladder_text, plcopen, structured};
 
 /// A file that is not a program.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -450,6 +450,7 @@ pub fn is_program(bytes: &[u8]) -> bool {
     };
     let is_list = of_text("", &text).is_none() && text.lines().any(is_instruction);
     is_list
+        || structured::detect("", &text)
         || plcopen::is_project(&text)
         || csv::detect(&text).is_some()
         || ladder_text::detect(&text)

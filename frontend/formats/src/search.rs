@@ -23,7 +23,7 @@ fn is_of_gx_developer(folder: &Path) -> bool {
 }
 
 /// All programs in a folder and, to this depth (1: in itself), below, in the order of their paths: instruction lists
-/// (`.il`), list exports (`.csv`), GX Developer projects (their folders), GX Works2 projects (`.gxw`), FXGP/WIN
+/// (`.il`), structured text (`.st`), list exports (`.csv`), GX Developer projects (their folders), GX Works2 projects (`.gxw`), FXGP/WIN
 /// programs (`.pmw`), images of program memory (`.bin`) and PLCopen XML (`.xml`). Hidden folders, folders called
 /// `target`, links to folders and what is not a file, such as a pipe, are left out.
 pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
@@ -49,7 +49,7 @@ pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
         let ending = path.extension().unwrap_or_default();
         let ending = ending.to_string_lossy().to_lowercase();
         let fits = match ending.as_str() {
-            "il" | "gxw" | "pmw" => true,
+            "il" | "st" | "gxw" | "pmw" => true,
             "csv" => is_export(path),
             "bin" => is_memory(path),
             "xml" => is_plcopen(path),

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | E00xx | reading files and text, instructions that are not known, settings of a project (E004x) |
 //! | E01xx | devices and operands |
+//! | E02xx, W024x | structured text |
 //! | E03xx | operand counts |
 //! | E04xx | contact logic, structure and flow |
 //! | W02xx | legal, but causes trouble in practice |
@@ -38,6 +39,7 @@ mod project;
 mod properties;
 mod reading;
 mod structure;
+mod structured;
 mod vendor;
 
 pub use boards::*;
@@ -54,6 +56,7 @@ pub use project::*;
 pub use properties::*;
 pub use reading::*;
 pub use structure::*;
+pub use structured::*;
 pub use vendor::*;
 
 /// One row of the table.
@@ -152,6 +155,7 @@ pub fn all() -> Vec<&'static Code> {
         ports::TABLE,
         logic::TABLE,
         structure::TABLE,
+        structured::TABLE,
         labels::TABLE,
         practice::TABLE,
         modules::TABLE,

@@ -142,6 +142,8 @@ pub enum SourceKind {
     Il,
     /// Ladder drawn in characters.
     Ladder,
+    /// Structured text: its instructions come when it is compiled for a model.
+    StructuredText,
     /// The editors' list export.
     Csv,
     /// GX Developer project (`MAIN.wpg`).
@@ -160,6 +162,7 @@ impl SourceKind {
         match self {
             SourceKind::Il => "instruction list",
             SourceKind::Ladder => "drawn ladder",
+            SourceKind::StructuredText => "structured text",
             SourceKind::Csv => "list export",
             SourceKind::GxDeveloper => "GX Developer",
             SourceKind::GxWorks2 => "GX Works2",
@@ -171,7 +174,7 @@ impl SourceKind {
     /// Returns true for a text that a user writes: its places are lines and columns.
     pub const fn is_text(self) -> bool {
         match self {
-            SourceKind::Il | SourceKind::Ladder => true,
+            SourceKind::Il | SourceKind::Ladder | SourceKind::StructuredText => true,
             SourceKind::Csv
             | SourceKind::GxDeveloper
             | SourceKind::GxWorks2
@@ -185,6 +188,7 @@ impl SourceKind {
         match self {
             SourceKind::Il => true,
             SourceKind::Ladder
+            | SourceKind::StructuredText
             | SourceKind::Csv
             | SourceKind::GxDeveloper
             | SourceKind::GxWorks2
@@ -199,6 +203,7 @@ impl SourceKind {
             SourceKind::Csv => true,
             SourceKind::Il
             | SourceKind::Ladder
+            | SourceKind::StructuredText
             | SourceKind::GxDeveloper
             | SourceKind::GxWorks2
             | SourceKind::Image
@@ -210,7 +215,11 @@ impl SourceKind {
     /// lengths; others are lists of mnemonics.
     pub const fn is_project(self) -> bool {
         match self {
-            SourceKind::Il | SourceKind::Ladder | SourceKind::Csv | SourceKind::Plcopen => false,
+            SourceKind::Il
+            | SourceKind::Ladder
+            | SourceKind::StructuredText
+            | SourceKind::Csv
+            | SourceKind::Plcopen => false,
             SourceKind::GxDeveloper | SourceKind::GxWorks2 | SourceKind::Image => true,
         }
     }

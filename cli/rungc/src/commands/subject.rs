@@ -388,10 +388,12 @@ pub fn each_in<P: Send>(
 pub fn source(
     subject: &Subject,
 ) -> std::result::Result<rungc_frontend::Read, rungc_frontend::ReadError> {
-    if subject.is_stdin() {
-        return rungc_frontend::read_from("stdin", io::stdin().lock(), &subject.options);
-    }
-    rungc_frontend::read_with(&subject.file, &subject.options)
+    let mut read = match subject.is_stdin() {
+        true => rungc_frontend::read_from("stdin", io::stdin().lock(), &subject.options)?,
+        false => rungc_frontend::read_with(&subject.file, &subject.options)?,
+    };
+    rungc::structured::compile(&mut read, subject.model);
+    Ok(read)
 }
 
 /// Output paths of a command's programs, with the file that each was read from.

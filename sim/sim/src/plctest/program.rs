@@ -81,6 +81,8 @@ pub(super) fn read(path: &Path) -> Result<Tested, String> {
         ..CompileOptions::default()
     };
     let model = compile::model(&read.program, &compiled);
+    let found = rungc_structured::compile(&mut read.program, model);
+    read.diagnostics.extend(found.iter().cloned());
     let completed = project.complete(path, &mut read.program, model);
     completed.map_err(|error| error_lines(&error))?;
     let variant = project.variant.filter(|v| v.model == model.id);

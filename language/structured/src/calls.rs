@@ -1,0 +1,301 @@
+//! Instructions that are called like functions: `MOV(EN, S, D)`.
+
+use crate::ast::{Arg, Expr, ExprKind};
+use crate::conditions::Cond;
+use crate::emit::{Compiler, Made, fail};
+use crate::literal::Const;
+use crate::types::Ty;
+use rungc_catalogue::{Drive, Found, Param, Role, Shape};
+use rungc_syntax::diag::{counted, did_you_mean};
+use rungc_syntax::{Diagnostic, Operand, OperandKind, codes};
+
+impl Compiler<'_> {
+    /// Compiles a call that is a statement.
+    pub(crate) fn call(&mut self, expr: &Expr) -> Made<()> {
+        let ExprKind::Call(of, args) = &expr.kind else {
+            let error = codes::ST_SYNTAX.at(expr.span, "this alone is not a statement");
+            return fail(
+                error.help("assign something to it, `NAME := VALUE;`, or call it, `NAME(…);`"),
+            );
+        };
+        let Some(name) = of.name() else {
+            return fail(codes::ST_UNSUPPORTED.at(of.span, "this cannot be called"));
+        };
+        if self.labels.get(name).is_some() {
+            let what = format!("`{name}` is a label, which cannot be called");
+            return fail(codes::ST_TYPE.at(of.span, what));
+        }
+        let upper = name.to_ascii_uppercase();
+        if let Some(arg) = args.iter().find_map(|arg| arg.name.as_ref()) {
+            let what = "arguments of instructions have no names";
+            return fail(codes::ST_ARGUMENTS.at(arg.span, what));
+        }
+        match upper.as_str() {
+            "OUT_T" | "OUT_C" | "OUT_C_32" => return self.counted_out(&upper, of, args),
+            _ => {}
+        }
+        let found = rungc_catalogue::find(&upper).filter(|found| is_callable(found, &upper));
+        let Some(found) = found else {
+            return fail(unknown(name, of));
+        };
+        if found.inst.drive == Drive::Alone {
+            return self.alone(&upper, of, args);
+        }
+        let Some((enable, rest)) = args.split_first() else {
+            let what = format!("`{upper}` takes EN and its operands");
+            return fail(
+                codes::ST_ARGUMENTS
+                    .at(expr.span, what)
+                    .help(usage(&upper, &found)),
+            );
+        };
+        let params = parameters(&found, rest.len());
+        if params.len() != rest.len() {
+            let (takes, given) = (counted(params.len(), "operand"), rest.len());
+            let what = format!("`{upper}` takes {takes} behind EN, not {given}");
+            return fail(
+                codes::ST_ARGUMENTS
+                    .at(expr.span, what)
+                    .help(usage(&upper, &found)),
+            );
+        }
+        self.driven(&upper, &found, &enable.value, rest)
+    }
+
+    /// An instruction without a contact before it: `EI(TRUE)`.
+    fn alone(&mut self, name: &str, of: &Expr, args: &[Arg]) -> Made<()> {
+        if let [arg] = args
+            && let Some((Const::Bool(true), _)) = self.constant(&arg.value)?
+        {
+            self.push(name, []);
+            self.is_powered = false;
+            return Ok(());
+        }
+        fail(codes::ST_ARGUMENTS.at(of.span, format!("`{name}` takes EN alone, which is TRUE")))
+    }
+
+    /// An instruction behind its condition.
+    fn driven(&mut self, name: &str, found: &Found, enable: &Expr, args: &[Arg]) -> Made<()> {
+        let params = parameters(found, args.len());
+        let order = call_order(params);
+        let mut errors = Vec::new();
+        let mut operands: Vec<Option<Operand>> = vec![None; params.len()];
+        let mut widths = Ty::Int;
+        let before = self.instrs.len();
+        for (arg, at) in args.iter().zip(order) {
+            match self.argument(&arg.value, &params[at], found.form.wide) {
+                Ok((operand, ty)) => {
+                    widths = ty.unwrap_or(widths);
+                    operands[at] = Some(operand);
+                }
+                Err(more) => errors.extend(more),
+            }
+        }
+        let computed = self.instrs.len() > before;
+        let enabled = self.enabled(enable, computed);
+        let enabled = match enabled {
+            Ok(enabled) if errors.is_empty() => enabled,
+            Ok(_) => return Err(errors),
+            Err(more) => {
+                errors.extend(more);
+                return Err(errors);
+            }
+        };
+        self.enable(&enabled);
+        let operands: Vec<Operand> = operands.into_iter().flatten().collect();
+        if name == "RST" && widths.is_wide() && widths != Ty::WideCounter {
+            return self.reset_both(operands);
+        }
+        self.push(name, operands);
+        Ok(())
+    }
+
+    /// RST of a register of 32 bits resets both words.
+    fn reset_both(&mut self, operands: Vec<Operand>) -> Made<()> {
+        for operand in operands {
+            let mut upper = operand.clone();
+            if let OperandKind::Device(device, _) = &mut upper.kind {
+                device.number = device.number.saturating_add(1);
+            }
+            self.push("RST", [operand]);
+            self.push("RST", [upper]);
+        }
+        Ok(())
+    }
+
+    /// The condition of EN; a compound one goes through a bit where something is computed.
+    fn enabled(&mut self, enable: &Expr, computed: bool) -> Made<Cond> {
+        let cond = self.condition(enable)?;
+        if !computed || cond.is_single() {
+            return Ok(cond);
+        }
+        self.load(&cond);
+        self.in_bit(enable.span)
+    }
+
+    /// Begins the rung of EN.
+    fn enable(&mut self, cond: &Cond) {
+        match cond {
+            Cond::Contact {
+                operand,
+                is_closed: false,
+                ..
+            } if operand.kind == crate::emit::ON => self.power(),
+            cond => self.load(cond),
+        }
+    }
+
+    /// An argument as an operand, and its type if it is a declared one.
+    fn argument(
+        &mut self,
+        expr: &Expr,
+        param: &Param,
+        is_wide: bool,
+    ) -> Made<(Operand, Option<Ty>)> {
+        let writes = param.role != Role::Read;
+        if let Some(place) = self.place(expr)? {
+            let (span, kind) = (expr.span, place.operand);
+            return Ok((Operand { span, kind }, Some(place.ty)));
+        }
+        if writes {
+            let what = format!(
+                "`{}` is written, so it has to be a label or device",
+                param.name
+            );
+            return fail(codes::ST_NOT_WRITABLE.at(expr.span, what));
+        }
+        let of = self.ty(expr)?;
+        let ty = match (param.shape, of) {
+            (_, of) if !of.is_untyped() => of,
+            (Shape::Float, _) | (_, Ty::Fraction) => Ty::Real,
+            (Shape::Pair, _) => Ty::Raw32,
+            (Shape::Value, _) if is_wide => Ty::Raw32,
+            _ => Ty::Raw16,
+        };
+        if ty == Ty::Bool {
+            let what = "a condition cannot stand here";
+            return fail(
+                codes::ST_TYPE
+                    .at(expr.span, what)
+                    .help("assign it to a label first"),
+            );
+        }
+        Ok((self.operand(expr, ty)?, None))
+    }
+
+    /// `OUT_T(EN, TC0, 50)`.
+    fn counted_out(&mut self, name: &str, of: &Expr, args: &[Arg]) -> Made<()> {
+        let [enable, device, value] = args else {
+            let what = format!("`{name}` takes EN, a device and a value");
+            let help = format!(
+                "write `{name}(EN, {}, 50)`",
+                if name == "OUT_T" { "TC0" } else { "CC0" }
+            );
+            return fail(codes::ST_ARGUMENTS.at(of.span, what).help(help));
+        };
+        let is_timer = name == "OUT_T";
+        let place = self.place(&device.value)?;
+        let class = if is_timer {
+            rungc_syntax::DeviceClass::T
+        } else {
+            rungc_syntax::DeviceClass::C
+        };
+        let place = place.filter(|place| match &place.operand {
+            OperandKind::Device(device, _) => device.class == class,
+            _ => false,
+        });
+        let Some(place) = place else {
+            let what = if is_timer {
+                "this is not a timer T"
+            } else {
+                "this is not a counter C"
+            };
+            return fail(codes::ST_TYPE.at(device.value.span, what));
+        };
+        let is_wide = place.ty == Ty::WideCounter || name == "OUT_C_32";
+        let of_value = self.ty(&value.value)?;
+        let ty = match of_value {
+            Ty::Integer if is_wide => Ty::Raw32,
+            Ty::Integer => Ty::Raw16,
+            ty => ty,
+        };
+        let before = self.instrs.len();
+        let value = self.operand(&value.value, ty)?;
+        let computed = self.instrs.len() > before;
+        let cond = self.condition(&enable.value)?;
+        let cond = match cond.is_single() && !computed {
+            true => cond,
+            false if cond.is_single() => cond,
+            false => {
+                self.load(&cond);
+                self.in_bit(enable.value.span)?
+            }
+        };
+        self.enable(&cond);
+        let device = Operand {
+            span: device.value.span,
+            kind: place.operand,
+        };
+        self.push("OUT", [device, value]);
+        Ok(())
+    }
+}
+
+/// Returns true for what GX Works2 offers as a function: an instruction that a rung drives, or one that stands alone.
+fn is_callable(found: &Found, name: &str) -> bool {
+    const NOT: [&str; 12] = [
+        "CJ", "CALL", "SRET", "IRET", "FEND", "END", "FOR", "NEXT", "MC", "MCR", "STL", "RET",
+    ];
+    let is_label = found.inst.name == "P" || found.inst.name == "I";
+    let drives = match found.inst.drive {
+        Drive::Contact => true,
+        Drive::Alone => found.inst.params.is_empty(),
+        Drive::Logic => false,
+    };
+    !is_label
+        && drives
+        && !NOT.contains(&name)
+        && !name.starts_with("CJ")
+        && !name.starts_with("CALL")
+}
+
+/// The operands that a call with so many arguments has.
+fn parameters(found: &Found, given: usize) -> &'static [Param] {
+    let all = found.inst.params;
+    let least = all.iter().filter(|param| !param.optional).count();
+    &all[..given.clamp(least, all.len())]
+}
+
+/// Positions of the operands in the order of a call: what is read stands before what is written.
+fn call_order(params: &[Param]) -> impl Iterator<Item = usize> {
+    let is = |writes: bool| {
+        let positions = params.iter().enumerate();
+        positions
+            .filter(move |(_, param)| (param.role != Role::Read) == writes)
+            .map(|(at, _)| at)
+    };
+    is(false).chain(is(true))
+}
+
+fn usage(name: &str, found: &Found) -> String {
+    let params = found.inst.params;
+    let names: String = call_order(params)
+        .map(|at| format!(", {}", params[at].name))
+        .collect();
+    format!("write `{name}(EN{names})`")
+}
+
+fn unknown(name: &str, of: &Expr) -> Diagnostic {
+    let upper = name.to_ascii_uppercase();
+    let spellings: Vec<String> = rungc_catalogue::all()
+        .flat_map(|inst| inst.spellings().into_iter().map(|(spelling, _)| spelling))
+        .filter(|name| rungc_catalogue::find(name).is_some_and(|found| is_callable(&found, name)))
+        .collect();
+    let what = format!("`{name}` is not an instruction that can be called");
+    let error = codes::ST_UNKNOWN_NAME.at(of.span, what);
+    match did_you_mean(&upper, spellings.iter().map(String::as_str)) {
+        Some(meant) if meant != upper => error.help(format!("did you mean `{meant}`?")),
+        _ => error
+            .help("functions and function blocks are not compiled yet, except for instructions"),
+    }
+}

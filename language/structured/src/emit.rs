@@ -1,0 +1,166 @@
+//! Instructions as they are made, with the place of their statement.
+
+use crate::labels::{Labels, Supply};
+use crate::types::Ty;
+use rungc_syntax::{
+    Device, DeviceClass, Diagnostic, Instr, Operand, OperandKind, Remarks, Span, codes,
+};
+use smol_str::{SmolStr, ToSmolStr};
+
+/// Findings about one statement.
+pub(crate) type Errors = Vec<Diagnostic>;
+
+/// What a step of compilation gives, or what is wrong.
+pub(crate) type Made<T> = Result<T, Errors>;
+
+/// An error alone.
+pub(crate) fn fail<T>(error: Diagnostic) -> Made<T> {
+    Err(vec![error])
+}
+
+/// Both results, or the errors of both.
+pub(crate) fn both<A, B>(a: Made<A>, b: Made<B>) -> Made<(A, B)> {
+    match (a, b) {
+        (Ok(a), Ok(b)) => Ok((a, b)),
+        (Err(mut a), Err(b)) => {
+            a.extend(b);
+            Err(a)
+        }
+        (Err(errors), _) | (_, Err(errors)) => Err(errors),
+    }
+}
+
+/// Limit of the length of a program, in instructions. No PLC of the family has room for more.
+const MOST: usize = 200_000;
+
+/// The state of a compilation.
+pub(crate) struct Compiler<'a> {
+    pub labels: &'a Labels,
+    pub supply: Supply,
+    pub instrs: Vec<Instr>,
+    pub found: Vec<Diagnostic>,
+    /// Text of the program.
+    pub text: &'a str,
+    /// The statement.
+    pub span: Span,
+    /// Heading for the next rung.
+    pub heading: Option<SmolStr>,
+    /// True while `LD M8000` holds for what follows.
+    pub is_powered: bool,
+    /// Where EXIT leads, from the outermost loop on, and whether it was used.
+    pub loops: Vec<Device>,
+    /// Where RETURN leads, once it was used.
+    pub end: Option<Device>,
+}
+
+pub(crate) const fn relay(number: u32) -> OperandKind {
+    let class = DeviceClass::M;
+    OperandKind::Device(Device { class, number }, None)
+}
+
+/// On while the PLC runs.
+pub(crate) const ON: OperandKind = relay(8000);
+/// Off while the PLC runs.
+pub(crate) const OFF: OperandKind = relay(8001);
+
+impl Compiler<'_> {
+    /// Appends an instruction.
+    pub(crate) fn push(
+        &mut self,
+        mnemonic: impl Into<SmolStr>,
+        operands: impl IntoIterator<Item = Operand>,
+    ) {
+        let mnemonic = mnemonic.into();
+        let begins = mnemonic.starts_with("LD");
+        let heading = if begins { self.heading.take() } else { None };
+        if self.instrs.len() >= MOST {
+            return;
+        }
+        self.instrs.push(Instr {
+            mnemonic,
+            mnemonic_span: self.span,
+            operands: operands.into_iter().collect(),
+            span: self.span,
+            step: None,
+            remarks: Remarks::new(heading, None),
+        });
+    }
+
+    /// An operand that the statement as a whole stands for.
+    pub(crate) fn here(&self, kind: OperandKind) -> Operand {
+        Operand {
+            span: self.span,
+            kind,
+        }
+    }
+
+    /// Begins a rung that is always on, unless one holds already.
+    pub(crate) fn power(&mut self) {
+        if !self.is_powered {
+            let on = self.here(ON);
+            self.push("LD", [on]);
+            self.is_powered = true;
+        }
+    }
+
+    /// Appends an instruction to a rung that is always on.
+    pub(crate) fn always(&mut self, mnemonic: &str, operands: impl IntoIterator<Item = Operand>) {
+        self.power();
+        self.push(mnemonic, operands);
+    }
+
+    /// Appends a label.
+    pub(crate) fn label(&mut self, pointer: Device) {
+        self.push(pointer.to_smolstr(), []);
+        self.is_powered = false;
+    }
+
+    /// Appends a jump to the rung that was begun.
+    pub(crate) fn jump(&mut self, pointer: Device) {
+        let pointer = self.here(OperandKind::Device(pointer, None));
+        self.push("CJ", [pointer]);
+    }
+
+    /// Jumps in any case.
+    pub(crate) fn goto(&mut self, pointer: Device) {
+        self.power();
+        self.jump(pointer);
+    }
+
+    pub(crate) fn pointer(&mut self) -> Made<Device> {
+        self.supply.pointer().ok_or_else(|| {
+            let what = "no pointer P is left for IF, CASE and loops";
+            let first = codes::ST_NO_DEVICE.at(self.span, what);
+            vec![first.help("the range is that of GX Works2 for this model; join conditions, or split the program")]
+        })
+    }
+
+    /// A temporary of so many words; 0 is a bit.
+    pub(crate) fn temporary(&mut self, words: u32) -> Made<Device> {
+        let class = if words == 0 {
+            DeviceClass::M
+        } else {
+            DeviceClass::D
+        };
+        self.supply.take(class, words.max(1)).ok_or_else(|| {
+            let what = format!(
+                "no device {} is left for a value in between",
+                class.prefix()
+            );
+            let error = codes::ST_NO_DEVICE.at(self.span, what);
+            vec![
+                error.help("assign the value to a label of your own that several statements share"),
+            ]
+        })
+    }
+
+    /// The mnemonic of an operation, by the type of its values.
+    pub(crate) fn sized(name: &str, ty: Ty) -> String {
+        match (name, ty) {
+            ("WAND" | "WOR" | "WXOR", ty) if ty.is_wide() => name.replacen('W', "D", 1),
+            (name, Ty::Real) => format!("DE{name}"),
+            (name, ty) if ty.is_wide() => format!("D{name}"),
+            (name, _) => name.to_owned(),
+        }
+    }
+}

@@ -1,0 +1,374 @@
+//! The labels of a program: their types, and their devices.
+
+use crate::ast::{Expr, ExprKind, Name, Section, TypeName, Variable};
+use crate::device::{self, Place};
+use crate::literal::{Const, Literal, range};
+use crate::ranges::{Free, Ranges};
+use crate::types::{Fit, Ty};
+use crate::{Known, convert, fold};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, OperandKind, Span, codes};
+use std::cell::Cell;
+use std::collections::BTreeMap;
+
+/// What a label stands for.
+#[derive(Clone, Debug)]
+pub(crate) enum Stored {
+    Device(OperandKind),
+    Constant(Const),
+    /// Its declaration is wrong, which is reported.
+    Unknown,
+}
+
+/// A declared label.
+#[derive(Clone, Debug)]
+pub(crate) struct Label {
+    pub name: String,
+    pub span: Span,
+    pub ty: Ty,
+    /// First and last index of an array.
+    pub bounds: Option<(i64, i64)>,
+    pub stored: Stored,
+    /// False where the declaration states the device.
+    pub is_chosen: bool,
+    pub is_used: Cell<bool>,
+}
+
+/// Labels by their names in upper case.
+#[derive(Debug, Default)]
+pub(crate) struct Labels {
+    by_name: BTreeMap<String, Label>,
+}
+
+/// Numbers that are left for labels and temporaries.
+#[derive(Clone, Debug)]
+pub(crate) struct Supply {
+    d: Free,
+    m: Free,
+    t: Free,
+    c: Free,
+    p: Free,
+}
+
+impl Supply {
+    pub(crate) fn new(ranges: &Ranges) -> Supply {
+        Supply {
+            d: Free::new(DeviceClass::D, ranges.d),
+            m: Free::new(DeviceClass::M, ranges.m),
+            t: Free::new(DeviceClass::T, ranges.t),
+            c: Free::new(DeviceClass::C, ranges.c),
+            p: Free::new(DeviceClass::P, ranges.p),
+        }
+    }
+
+    /// The first of `count` devices of a class, from the top of its range down.
+    pub(crate) fn take(&mut self, class: DeviceClass, count: u32) -> Option<Device> {
+        let free = match class {
+            DeviceClass::M => &mut self.m,
+            DeviceClass::T => &mut self.t,
+            DeviceClass::C => &mut self.c,
+            _ => &mut self.d,
+        };
+        let number = free.from_top(count)?;
+        Some(Device {
+            class: free.class,
+            number,
+        })
+    }
+
+    /// The next pointer, from the bottom of the range up.
+    pub(crate) fn pointer(&mut self) -> Option<Device> {
+        let number = self.p.from_bottom()?;
+        Some(Device {
+            class: self.p.class,
+            number,
+        })
+    }
+}
+
+impl Labels {
+    /// The label of this name.
+    pub(crate) fn get(&self, name: &str) -> Option<&Label> {
+        let label = self.by_name.get(&name.to_uppercase())?;
+        label.is_used.set(true);
+        Some(label)
+    }
+
+    /// All labels, in the order of their names.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Label> {
+        self.by_name.values()
+    }
+
+    /// Declares the labels of a section.
+    pub(crate) fn declare(
+        &mut self,
+        section: &Section,
+        supply: &mut Supply,
+        known: &Known,
+        found: &mut Vec<Diagnostic>,
+    ) {
+        if !matches!(
+            section.keyword.text.as_str(),
+            "VAR" | "VAR_GLOBAL" | "VAR_CONSTANT" | "VAR_TEMP"
+        ) {
+            let what = format!("`{}` has no meaning in a program", section.keyword.text);
+            let error = codes::ST_UNSUPPORTED.at(section.keyword.span, what);
+            found.push(error.help("a program declares its labels in `VAR` … `END_VAR`"));
+        }
+        for variable in &section.variables {
+            if !variable.is_ended {
+                let end = Span::new(variable.span.end, variable.span.end);
+                let error = codes::ST_SYNTAX.at(end, "a declaration ends in `;`");
+                found.push(error.label("`;` is missing here"));
+            }
+            self.variable(variable, section.is_constant, (supply, known), found);
+        }
+    }
+
+    fn variable(
+        &mut self,
+        variable: &Variable,
+        is_constant: bool,
+        (supply, known): (&mut Supply, &Known),
+        found: &mut Vec<Diagnostic>,
+    ) {
+        let of = self.type_of(&variable.of, found);
+        let stated = variable.place.as_ref().map(|place| stated(place, found));
+        for name in &variable.names {
+            if let Some(error) = self.clash(name) {
+                found.push(error);
+                continue;
+            }
+            let (ty, bounds) = of.unwrap_or((Ty::Raw16, None));
+            let mut label = Label {
+                name: name.text.to_string(),
+                span: name.span,
+                ty,
+                bounds,
+                stored: Stored::Unknown,
+                is_chosen: variable.place.is_none(),
+                is_used: Cell::new(of.is_none()),
+            };
+            if of.is_some() {
+                let stored = match (is_constant, &stated) {
+                    (true, _) => self.constant(variable, name, ty),
+                    (false, Some(place)) => place.clone().map_or(Ok(Stored::Unknown), |place| {
+                        suits(place, ty, variable).map(Stored::Device)
+                    }),
+                    (false, None) => chosen(&label, supply, known, variable),
+                };
+                match stored {
+                    Ok(stored) => label.stored = stored,
+                    Err(error) => found.push(*error),
+                }
+                if let (false, Some(initial)) = (is_constant, &variable.initial) {
+                    found.extend(self.initial(initial));
+                }
+            }
+            self.by_name.insert(name.text.to_uppercase(), label);
+        }
+    }
+
+    /// The type of a declaration; an error is reported.
+    fn type_of(
+        &self,
+        of: &TypeName,
+        found: &mut Vec<Diagnostic>,
+    ) -> Option<(Ty, Option<(i64, i64)>)> {
+        let name = of.name.text.as_str();
+        let Some(ty) = Ty::named(name) else {
+            let what = match name.to_ascii_uppercase().as_str() {
+                "STRING" | "WSTRING" => "labels of type STRING are not compiled yet".to_owned(),
+                "SINT" | "LINT" | "USINT" | "UINT" | "UDINT" | "LREAL" | "BYTE" | "LWORD"
+                | "DATE" => {
+                    format!("FX has no type {name}")
+                }
+                _ => format!(
+                    "`{name}` is no elementary type; structures and function blocks are not compiled yet"
+                ),
+            };
+            let error =
+                codes::ST_UNSUPPORTED.at(of.name.span, what.replace("is no ", "is not an "));
+            found.push(
+                error.help("types are BOOL, INT, WORD, DINT, DWORD, REAL, TIME, TIMER and COUNTER"),
+            );
+            return None;
+        };
+        match of.bounds.as_slice() {
+            [] => Some((ty, None)),
+            [(first, last)] => {
+                let value = |bound: &Expr| match fold::constant(self, bound) {
+                    Some((Const::Int(value), _)) => Some(value),
+                    _ => None,
+                };
+                let bounds = value(first)
+                    .zip(value(last))
+                    .filter(|(first, last)| first <= last);
+                if bounds.is_none() {
+                    let span = first.span.to(last.span);
+                    found.push(codes::ST_LITERAL.at(span, "these are not the bounds of an array"));
+                }
+                bounds.map(|bounds| (ty, Some(bounds)))
+            }
+            _ => {
+                let what = "arrays of several dimensions are not compiled yet";
+                found.push(codes::ST_UNSUPPORTED.at(of.span, what));
+                None
+            }
+        }
+    }
+
+    fn clash(&self, name: &Name) -> Option<Diagnostic> {
+        let text = name.text.as_str();
+        if let Some(first) = self.by_name.get(&text.to_uppercase()) {
+            let error =
+                codes::ST_DECLARED_TWICE.at(name.span, format!("`{text}` is declared twice"));
+            return Some(error.label("again here").other(first.span, "first here"));
+        }
+        let is_device = device::find(text).is_some() || device::constant(text).is_some();
+        let what = if is_device {
+            "a device or constant"
+        } else if convert::find(text).is_some()
+            || rungc_catalogue::find(&text.to_ascii_uppercase()).is_some()
+        {
+            "an instruction or function"
+        } else {
+            return None;
+        };
+        let error =
+            codes::ST_DECLARED_TWICE.at(name.span, format!("`{text}` is the name of {what}"));
+        Some(error.help("choose another name for the label"))
+    }
+
+    fn constant(
+        &self,
+        variable: &Variable,
+        name: &Name,
+        ty: Ty,
+    ) -> Result<Stored, Box<Diagnostic>> {
+        let Some(initial) = &variable.initial else {
+            let what = format!("the constant `{}` has no value", name.text);
+            return Err(codes::ST_LITERAL
+                .at(name.span, what)
+                .help("write `:= VALUE`")
+                .into());
+        };
+        let Some((value, of)) = fold::constant(self, initial) else {
+            let what = "this is not a constant";
+            return Err(codes::ST_LITERAL.at(initial.span, what).into());
+        };
+        value_in((value, of), ty, initial.span).map(Stored::Constant)
+    }
+
+    /// An initial value other than 0 is not compiled for FX.
+    fn initial(&self, initial: &Expr) -> Option<Diagnostic> {
+        let is_zero = match fold::constant(self, initial) {
+            Some((Const::Int(0) | Const::Bool(false), _)) => true,
+            Some((Const::Real(value), _)) => value == 0.0,
+            _ => false,
+        };
+        let what = "GX Works2 compiles no initial values for FX";
+        let error = || codes::ST_UNSUPPORTED.at(initial.span, what);
+        let help = "assign it in the first scan: `IF M8002 THEN … END_IF;`";
+        (!is_zero).then(|| error().help(help))
+    }
+}
+
+/// A constant in a type.
+pub(crate) fn value_in((value, of): Literal, ty: Ty, span: Span) -> Result<Const, Box<Diagnostic>> {
+    let misfit = || {
+        let what = format!("this is {of}, where {ty} is expected");
+        Err(codes::ST_TYPE.at(span, what).into())
+    };
+    if of.fit(ty) != Fit::Fits {
+        return misfit();
+    }
+    match (value, range(ty)) {
+        (Const::Int(value), _) if ty == Ty::Real => Ok(Const::Real(value as f64)),
+        (Const::Int(value), Some((least, most))) if value < least || value > most => {
+            let what = format!("{value} does not fit in {ty}");
+            let error = codes::ST_LITERAL.at(span, what);
+            Err(error.help(format!("it holds {least} to {most}")).into())
+        }
+        (Const::Int(value), _) if ty == Ty::Bool => Ok(Const::Bool(value == 1)),
+        (value, _) => Ok(value),
+    }
+}
+
+/// The device that a declaration states.
+fn stated(place: &Expr, found: &mut Vec<Diagnostic>) -> Option<Place> {
+    let device = match &place.kind {
+        ExprKind::Name(name) => device::find(name),
+        ExprKind::Address(address) => device::address(address),
+        ExprKind::Member(of, bit) => {
+            let word = of.name().and_then(device::find);
+            let bit = word.and_then(|(word, _)| device::bit(&word, bit));
+            bit.map(|bit| (bit, Ty::Bool))
+        }
+        _ => None,
+    };
+    if device.is_none() {
+        let error = codes::ST_UNKNOWN_NAME.at(place.span, "this is not a device");
+        found.push(error.help("write for example `AT X0`, `AT D10`, `AT D10.3` or `AT K4M0`"));
+    }
+    device
+}
+
+/// The device of a label, if it suits the type.
+fn suits(
+    (operand, of): Place,
+    ty: Ty,
+    variable: &Variable,
+) -> Result<OperandKind, Box<Diagnostic>> {
+    let is_bit_device = of == Ty::Bool;
+    let suits = match ty {
+        Ty::Bool => of.is_bit(),
+        Ty::Timer => of.is_bit() && !is_bit_device,
+        _ => !is_bit_device,
+    };
+    if suits {
+        return Ok(operand);
+    }
+    let span = variable
+        .place
+        .as_ref()
+        .map_or(variable.span, |place| place.span);
+    let what = format!("`{operand}` cannot hold {ty}");
+    let help = match ty {
+        Ty::Bool => "a BOOL is an X, Y, M, S, or a bit of a word",
+        Ty::Timer => "a TIMER is a T, a COUNTER a C",
+        _ => "a number is a D, R, T, C, or a group of bits such as `K4M0`",
+    };
+    Err(codes::ST_NO_DEVICE.at(span, what).help(help).into())
+}
+
+/// A device for a label that states none.
+fn chosen(
+    label: &Label,
+    supply: &mut Supply,
+    known: &Known,
+    variable: &Variable,
+) -> Result<Stored, Box<Diagnostic>> {
+    let elements = label
+        .bounds
+        .map_or(1, |(first, last)| last.abs_diff(first).saturating_add(1));
+    let is_counter = variable.of.name.text.eq_ignore_ascii_case("COUNTER");
+    let (class, each) = match label.ty {
+        Ty::Bool => (DeviceClass::M, 1),
+        Ty::Timer if is_counter => (DeviceClass::C, 1),
+        Ty::Timer => (DeviceClass::T, 1),
+        ty => (DeviceClass::D, ty.words()),
+    };
+    let count = elements.saturating_mul(each.into());
+    let device = match known.get(&label.name.to_uppercase()) {
+        Some(device) => Some(*device),
+        None => u32::try_from(count)
+            .ok()
+            .and_then(|count| supply.take(class, count)),
+    };
+    let device = device.ok_or_else(|| {
+        let what = format!("no device {} is left for `{}`", class.prefix(), label.name);
+        let error = codes::ST_NO_DEVICE.at(label.span, what);
+        error.help("state a device with `AT`, or shorten the arrays")
+    })?;
+    Ok(Stored::Device(OperandKind::Device(device, None)))
+}

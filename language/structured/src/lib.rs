@@ -1,0 +1,203 @@
+//! Structured text of IEC 61131-3, as GX Works2 has it for FX: its grammar, its types, and the instruction list that the
+//! editor makes of it.
+//!
+//! Start reading at [`compile`]. The steps are those that the compiler of GX Works2 takes where they are known; the page
+//! on structured text names the others.
+
+mod ast;
+mod calls;
+mod conditions;
+mod convert;
+mod device;
+mod emit;
+mod fold;
+mod labels;
+mod literal;
+mod parse;
+mod ranges;
+mod shape;
+mod statements;
+mod token;
+mod types;
+mod values;
+
+use ast::{Text, UnitKind};
+use emit::Compiler;
+use labels::{Labels, Stored, Supply};
+use rungc_models::Model;
+use rungc_syntax::{Device, Diagnostics, OperandKind, Program, SourceKind, Span, codes};
+use smol_str::ToSmolStr;
+use std::collections::BTreeMap;
+
+/// Devices that are known for labels without one, by their names in upper case.
+pub type Known = BTreeMap<String, Device>;
+
+/// Compiles the text of a program that was read as structured text into its instructions; other programs stay as they
+/// are. With errors there are no instructions, and the program is incomplete.
+pub fn compile(program: &mut Program, model: &'static Model) -> Diagnostics {
+    compile_with(program, model, &Known::new())
+}
+
+/// As [`compile`], with devices that are known for labels without one.
+pub fn compile_with(program: &mut Program, model: &'static Model, known: &Known) -> Diagnostics {
+    let mut out = Diagnostics::new();
+    if program.kind != SourceKind::StructuredText || !program.instrs.is_empty() {
+        return out;
+    }
+    let source = std::mem::take(&mut program.source);
+    let mut found = Vec::new();
+    let compiled = compiled(&source.text, model, known, &mut found);
+    let has_errors = found
+        .iter()
+        .any(|one| one.severity == rungc_syntax::Severity::Error);
+    if let Some(compiled) = compiled.filter(|_| !has_errors) {
+        program.instrs = compiled.instrs;
+        program.comments = compiled.comments;
+        program.pou = Some(compiled.name);
+        program.unread.clear();
+    } else {
+        program.unread = vec![0];
+    }
+    program.source = source;
+    out.extend(found);
+    out
+}
+
+/// Reads the statements of a text and finds what is wrong with its syntax; for searches of mistakes by chance.
+pub fn check_syntax(text: &str) -> Diagnostics {
+    let mut found = Vec::new();
+    parsed(text, &mut found);
+    let mut out = Diagnostics::new();
+    out.extend(found);
+    out
+}
+
+/// A program as a list.
+struct Compiled {
+    name: String,
+    instrs: Vec<rungc_syntax::Instr>,
+    comments: BTreeMap<Device, String>,
+}
+
+/// Reads a text.
+fn parsed(text: &str, found: &mut Vec<rungc_syntax::Diagnostic>) -> Option<Text> {
+    let tokens = token::tokens(text);
+    let before = found.len();
+    shape::nesting(&tokens, found);
+    if found.len() > before {
+        return None;
+    }
+    let tree = parse::parse(&tokens, found);
+    shape::endings(&tree, found);
+    Some(tree)
+}
+
+fn compiled(
+    text: &str,
+    model: &'static Model,
+    known: &Known,
+    found: &mut Vec<rungc_syntax::Diagnostic>,
+) -> Option<Compiled> {
+    let tree = parsed(text, found)?;
+    for structure in &tree.structures {
+        let what = format!(
+            "the structure `{}` is not compiled yet",
+            structure.name.text
+        );
+        found.push(codes::ST_UNSUPPORTED.at(structure.name.span, what));
+    }
+    for unit in tree
+        .units
+        .iter()
+        .filter(|unit| unit.kind != UnitKind::Program)
+    {
+        let what = match unit.kind {
+            UnitKind::Function => "functions",
+            _ => "function blocks",
+        };
+        let what = format!("{what} of your own are not compiled yet");
+        found.push(codes::ST_UNSUPPORTED.at(unit.head.to(unit.name.span), what));
+    }
+    let mut programs = tree
+        .units
+        .iter()
+        .filter(|unit| unit.kind == UnitKind::Program);
+    let Some(program) = programs.next() else {
+        if !found
+            .iter()
+            .any(|one| one.severity == rungc_syntax::Severity::Error)
+        {
+            let error = codes::ST_SYNTAX.at(Span::default(), "this text holds no PROGRAM");
+            found.push(error.help("write `PROGRAM Main`, the statements, and `END_PROGRAM`"));
+        }
+        return None;
+    };
+    for other in programs {
+        let span = other.head.to(other.name.span);
+        let error =
+            codes::ST_UNSUPPORTED.at(span, "a text with several programs is not compiled yet");
+        found.push(error.other(program.name.span, "the first program"));
+    }
+    let mut labels = Labels::default();
+    let mut supply = Supply::new(ranges::of(model));
+    for section in tree.globals.iter().chain(&program.sections) {
+        labels.declare(section, &mut supply, known, found);
+    }
+    let mut compiler = Compiler {
+        labels: &labels,
+        supply,
+        instrs: Vec::new(),
+        found: Vec::new(),
+        text,
+        span: program.name.span,
+        heading: None,
+        is_powered: false,
+        loops: Vec::new(),
+        end: None,
+    };
+    compiler.body(&program.body);
+    compiler.span = program.name.span;
+    if let Some(end) = compiler.end {
+        compiler.label(end);
+    }
+    for last in ["FEND", "NOP", "END"] {
+        compiler.push(last, []);
+    }
+    let (instrs, more) = (compiler.instrs, compiler.found);
+    found.extend(more);
+    if !found
+        .iter()
+        .any(|one| one.severity == rungc_syntax::Severity::Error)
+    {
+        unused(&labels, found);
+    }
+    Some(Compiled {
+        name: program.name.text.to_string(),
+        instrs,
+        comments: comments(&labels),
+    })
+}
+
+/// Warns of labels without a use.
+fn unused(labels: &Labels, found: &mut Vec<rungc_syntax::Diagnostic>) {
+    let unused = labels
+        .all()
+        .filter(|label| label.is_chosen && !label.is_used.get());
+    for label in unused {
+        let what = format!("nothing uses `{}`", label.name);
+        found.push(codes::ST_UNUSED.at(label.span, what));
+    }
+}
+
+/// Names of labels as the comments of their devices.
+fn comments(labels: &Labels) -> BTreeMap<Device, String> {
+    let mut comments = BTreeMap::new();
+    for label in labels.all().filter(|label| label.bounds.is_none()) {
+        if let Stored::Device(OperandKind::Device(device, None)) = &label.stored {
+            comments
+                .entry(*device)
+                .or_insert_with(|| label.name.to_smolstr().to_string());
+        }
+    }
+    comments
+}

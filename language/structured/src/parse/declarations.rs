@@ -1,0 +1,273 @@
+//! Units, sections of variables, and structures.
+
+use super::expressions::expression;
+use super::statements::body;
+use super::{ENDS, Rule, closing, is_any, keyword, name, place, rest, semicolon, sign};
+use crate::ast::{
+    Body, Expr, ExprKind, Name, Section, Stmt, StmtKind, Structure, Text, TypeName, Unit, UnitKind,
+    Variable,
+};
+use crate::token::{Lexeme, Token};
+use chumsky::prelude::*;
+
+enum Part {
+    Unit(Box<Unit>),
+    Globals(Section),
+    Structure(Structure),
+    Unread,
+}
+
+/// A whole text.
+pub(super) fn text<'t>() -> Rule<'t, Text> {
+    let unread = any().map(|_| Part::Unread);
+    let unit = choice((
+        unit("PROGRAM", "END_PROGRAM", UnitKind::Program),
+        unit("FUNCTION_BLOCK", "END_FUNCTION_BLOCK", UnitKind::Block),
+        unit("FUNCTION", "END_FUNCTION", UnitKind::Function),
+    ));
+    let part = choice((
+        unit.map(|unit| Part::Unit(Box::new(unit))).boxed(),
+        section(true).map(Part::Globals).boxed(),
+        structure().map(Part::Structure).boxed(),
+    ));
+    let skipped = any()
+        .filter(|lexeme: &Lexeme| !starts(lexeme.token))
+        .repeated();
+    let unread = unread.then_ignore(skipped);
+    part.recover_with(via_parser(unread))
+        .repeated()
+        .collect::<Vec<_>>()
+        .then_ignore(end())
+        .map(|parts| {
+            let mut text = Text::default();
+            for part in parts {
+                match part {
+                    Part::Unit(unit) => text.units.push(*unit),
+                    Part::Globals(section) => text.globals.push(section),
+                    Part::Structure(structure) => text.structures.push(structure),
+                    Part::Unread => {}
+                }
+            }
+            text
+        })
+        .boxed()
+}
+
+fn starts(token: Token) -> bool {
+    is_any(
+        token,
+        &[
+            "PROGRAM",
+            "FUNCTION",
+            "FUNCTION_BLOCK",
+            "TYPE",
+            "VAR_GLOBAL",
+        ],
+    )
+}
+
+fn unit<'t>(first: &'static str, last: &'static str, kind: UnitKind) -> Rule<'t, Unit> {
+    let of = sign(":").ignore_then(type_name()).or_not();
+    keyword(first)
+        .then(name())
+        .then_ignore(of)
+        .then_ignore(semicolon())
+        .then(section(false).repeated().collect::<Vec<_>>())
+        .then(whole_body())
+        .then(closing(last))
+        .map(move |((((head, name), sections), body), is_closed)| Unit {
+            kind,
+            name,
+            sections,
+            body,
+            head,
+            is_closed,
+        })
+        .boxed()
+}
+
+/// Statements of a unit. A keyword that ends nothing is reported and left out.
+fn whole_body<'t>() -> Rule<'t, Body> {
+    const INNER: [&str; 9] = [
+        "ELSIF",
+        "ELSE",
+        "END_IF",
+        "END_CASE",
+        "END_FOR",
+        "END_WHILE",
+        "UNTIL",
+        "END_REPEAT",
+        "END_VAR",
+    ];
+    let stray = any()
+        .filter(|lexeme: &Lexeme| is_any(lexeme.token, &INNER))
+        .then(sign(";").or_not());
+    let stray = stray.validate(|(lexeme, _), e, emitter| {
+        let span: SimpleSpan = e.span();
+        let at = SimpleSpan::from(span.start..span.start + 1);
+        emitter.emit(Rich::custom(
+            at,
+            format!("`{}` ends nothing here", lexeme.token.text()),
+        ));
+        Vec::<Stmt>::new()
+    });
+    // The label of a CASE outside of one, where no statement begins.
+    let other = any()
+        .filter(|lexeme: &Lexeme| !is_any(lexeme.token, &ENDS))
+        .rewind()
+        .ignore_then(rest())
+        .validate(|(), e, emitter| {
+            let span: SimpleSpan = e.span();
+            let at = SimpleSpan::from(span.start..span.start + 1);
+            emitter.emit(Rich::custom(at, "this is not a statement"));
+            let kind = StmtKind::Unread;
+            let span = place(e);
+            vec![Stmt {
+                kind,
+                span,
+                is_ended: true,
+            }]
+        });
+    let more = choice((stray.boxed(), other.boxed()))
+        .then(body())
+        .map(|(mut left, more)| {
+            left.extend(more);
+            left
+        });
+    body()
+        .foldl(more.repeated(), |mut all, more: Body| {
+            all.extend(more);
+            all
+        })
+        .boxed()
+}
+
+fn section<'t>(global: bool) -> Rule<'t, Section> {
+    const LOCAL: [&str; 7] = [
+        "VAR",
+        "VAR_INPUT",
+        "VAR_OUTPUT",
+        "VAR_IN_OUT",
+        "VAR_TEMP",
+        "VAR_EXTERNAL",
+        "VAR_CONSTANT",
+    ];
+    const GLOBAL: [&str; 1] = ["VAR_GLOBAL"];
+    let first = any()
+        .filter(move |lexeme: &Lexeme| {
+            is_any(lexeme.token, if global { &GLOBAL[..] } else { &LOCAL })
+        })
+        .map(|lexeme: Lexeme| Name {
+            text: lexeme.token.text().to_ascii_uppercase().into(),
+            span: lexeme.span,
+        })
+        .labelled(if global { "`VAR_GLOBAL`" } else { "`VAR`" });
+    let kind = choice((keyword("CONSTANT").to(true), keyword("RETAIN").to(false)));
+    first
+        .then(kind.or_not())
+        .then(variables())
+        .then(closing("END_VAR"))
+        .then_ignore(semicolon())
+        .map(|(((keyword, kind), variables), is_closed)| Section {
+            is_constant: kind == Some(true) || keyword.text == "VAR_CONSTANT",
+            keyword,
+            variables,
+            is_closed,
+        })
+        .boxed()
+}
+
+fn variables<'t>() -> Rule<'t, Vec<Variable>> {
+    let declared = variable()
+        .map(Some)
+        .recover_with(via_parser(rest().to(None)));
+    declared
+        .repeated()
+        .collect::<Vec<_>>()
+        .map(|all| all.into_iter().flatten().collect())
+        .boxed()
+}
+
+fn variable<'t>() -> Rule<'t, Variable> {
+    let names = name()
+        .separated_by(sign(","))
+        .at_least(1)
+        .collect::<Vec<_>>();
+    let place_of = keyword("AT").ignore_then(device());
+    let initial = sign(":=").ignore_then(expression());
+    names
+        .then(place_of.or_not())
+        .then_ignore(sign(":"))
+        .then(type_name())
+        .then(initial.or_not())
+        .then(semicolon())
+        .map_with(
+            |((((names, place_of), of), initial), is_ended), e| Variable {
+                names,
+                place: place_of,
+                of,
+                initial,
+                is_ended,
+                span: place(e),
+            },
+        )
+        .boxed()
+}
+
+/// A device, its bit, or an address, as an expression.
+fn device<'t>() -> Rule<'t, Expr> {
+    super::expressions::variable(expression())
+        .labelled("a device")
+        .boxed()
+}
+
+fn type_name<'t>() -> Rule<'t, TypeName> {
+    let bound = expression().then_ignore(sign("..")).then(expression());
+    let bounds = bound
+        .separated_by(sign(","))
+        .at_least(1)
+        .collect::<Vec<_>>();
+    let array = keyword("ARRAY")
+        .ignore_then(bounds.delimited_by(sign("["), sign("]")))
+        .then_ignore(keyword("OF"));
+    let length = any().filter(|lexeme: &Lexeme| matches!(lexeme.token, Token::Number(_)));
+    let length = choice((
+        length.delimited_by(sign("("), sign(")")),
+        length.delimited_by(sign("["), sign("]")),
+    ));
+    array
+        .or_not()
+        .then(name())
+        .then_ignore(length.or_not())
+        .map_with(|(bounds, name), e| TypeName {
+            name,
+            bounds: bounds.unwrap_or_default(),
+            span: place(e),
+        })
+        .labelled("a type")
+        .boxed()
+}
+
+fn structure<'t>() -> Rule<'t, Structure> {
+    keyword("TYPE")
+        .ignore_then(name())
+        .then_ignore(sign(":"))
+        .then_ignore(keyword("STRUCT"))
+        .then_ignore(variables())
+        .then_ignore(keyword("END_STRUCT"))
+        .then_ignore(semicolon())
+        .then_ignore(keyword("END_TYPE"))
+        .then_ignore(semicolon())
+        .map(|name| Structure { name })
+        .boxed()
+}
+
+impl Expr {
+    /// The name alone, if the expression is one.
+    pub(crate) fn name(&self) -> Option<&str> {
+        match &self.kind {
+            ExprKind::Name(name) => Some(name),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! Devices that GX Works2 reserves for labels without a device, for temporaries and for jumps, as it sets them for a new
+//! project of each CPU.
+
+use rungc_models::{Model, ModelId};
+use rungc_syntax::DeviceClass;
+
+/// First and last number of the devices of one class.
+pub(crate) type Range = (u32, u32);
+
+/// The reserved devices of a CPU.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ranges {
+    pub d: Range,
+    pub t: Range,
+    pub c: Range,
+    pub m: Range,
+    pub p: Range,
+}
+
+const fn ranges(d: Range, t: Range, c: Range, m: Range, p: Range) -> Ranges {
+    Ranges { d, t, c, m, p }
+}
+
+static FX3U: Ranges = ranges(
+    (512, 999),
+    (100, 199),
+    (100, 199),
+    (3840, 7679),
+    (2048, 4095),
+);
+static FX3G: Ranges = ranges(
+    (512, 999),
+    (100, 199),
+    (100, 199),
+    (512, 1535),
+    (1024, 2047),
+);
+static FX3S: Ranges = ranges((512, 999), (16, 31), (16, 31), (512, 1535), (30, 255));
+static FX2N: Ranges = ranges((512, 999), (100, 199), (100, 199), (512, 1535), (30, 127));
+static FX1N: Ranges = ranges((400, 999), (100, 199), (100, 199), (512, 1535), (30, 127));
+static FX1S: Ranges = ranges((128, 255), (16, 31), (16, 31), (256, 511), (30, 62));
+
+/// The reserved devices for a model. Models of other makers have those of the Mitsubishi model whose projects they take.
+pub(crate) fn of(model: &Model) -> &'static Ranges {
+    match model.id {
+        ModelId::Fx3u | ModelId::Fx3uCompatible => &FX3U,
+        ModelId::Fx3g | ModelId::L01s => &FX3G,
+        ModelId::Fx3s => &FX3S,
+        ModelId::Fx2n | ModelId::Fx2nCompatible | ModelId::H2u | ModelId::Hm => &FX2N,
+        ModelId::Fx1n | ModelId::H1u => &FX1N,
+        ModelId::Fx1s => &FX1S,
+    }
+}
+
+/// Numbers of one class that are not taken yet.
+#[derive(Clone, Debug)]
+pub(crate) struct Free {
+    pub class: DeviceClass,
+    first: u32,
+    /// One past the last.
+    end: u32,
+}
+
+impl Free {
+    pub(crate) fn new(class: DeviceClass, (first, last): Range) -> Free {
+        Free {
+            class,
+            first,
+            end: last + 1,
+        }
+    }
+
+    /// The first of `count` numbers from the top.
+    pub(crate) fn from_top(&mut self, count: u32) -> Option<u32> {
+        let first = self
+            .end
+            .checked_sub(count)
+            .filter(|first| *first >= self.first)?;
+        self.end = first;
+        Some(first)
+    }
+
+    /// The lowest number.
+    pub(crate) fn from_bottom(&mut self) -> Option<u32> {
+        let number = self.first;
+        (number < self.end).then(|| self.first += 1)?;
+        Some(number)
+    }
+}

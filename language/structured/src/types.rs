@@ -1,0 +1,167 @@
+//! Types of values, and which of them go together.
+
+use std::fmt;
+
+/// Type of a label, device or expression.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Ty {
+    Bool,
+    Int,
+    Word,
+    Dint,
+    Dword,
+    Real,
+    Time,
+    /// Timer or counter of 16 bits: its contact, or its current value.
+    Timer,
+    /// Counter of 32 bits: its contact, or its current value.
+    WideCounter,
+    /// Register or group of 16 bits without a declared type.
+    Raw16,
+    /// Group of bits of more than four digits.
+    Raw32,
+    /// Integer constant without a type.
+    Integer,
+    /// Number with a fraction, without a type.
+    Fraction,
+}
+
+/// How a value suits a place.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Fit {
+    Fits,
+    /// It does not, but a function converts it without loss.
+    Converts,
+    /// A conversion may lose a part of it.
+    Loses,
+    Unlike,
+}
+
+impl Ty {
+    /// The elementary type of this name.
+    pub(crate) fn named(name: &str) -> Option<Ty> {
+        Some(match name.to_ascii_uppercase().as_str() {
+            "BOOL" => Ty::Bool,
+            "INT" => Ty::Int,
+            "WORD" => Ty::Word,
+            "DINT" => Ty::Dint,
+            "DWORD" => Ty::Dword,
+            "REAL" => Ty::Real,
+            "TIME" => Ty::Time,
+            "TIMER" => Ty::Timer,
+            "COUNTER" => Ty::Timer,
+            _ => return None,
+        })
+    }
+
+    /// Number of words that a value takes; 0 for a bit.
+    pub(crate) const fn words(self) -> u32 {
+        match self {
+            Ty::Bool => 0,
+            Ty::Int | Ty::Word | Ty::Timer | Ty::Raw16 | Ty::Integer => 1,
+            _ => 2,
+        }
+    }
+
+    /// Returns true for values of 32 bits.
+    pub(crate) const fn is_wide(self) -> bool {
+        self.words() == 2
+    }
+
+    /// Returns true for what has a contact.
+    pub(crate) const fn is_bit(self) -> bool {
+        matches!(self, Ty::Bool | Ty::Timer | Ty::WideCounter)
+    }
+
+    /// Returns true for whole numbers.
+    pub(crate) const fn is_whole(self) -> bool {
+        !matches!(self, Ty::Bool | Ty::Real | Ty::Fraction)
+    }
+
+    /// Returns true for values without a sign.
+    pub(crate) const fn is_unsigned(self) -> bool {
+        matches!(self, Ty::Word | Ty::Dword)
+    }
+
+    /// Returns true for a constant without a type.
+    pub(crate) const fn is_untyped(self) -> bool {
+        matches!(self, Ty::Integer | Ty::Fraction)
+    }
+
+    /// How a value of this type suits a place of another.
+    pub(crate) fn fit(self, place: Ty) -> Fit {
+        use Ty::*;
+        match (self, place) {
+            (from, to) if from == to => Fit::Fits,
+            (Integer, Bool) | (Fraction, Real) | (Integer, Real) => Fit::Fits,
+            (Integer, _) => Fit::Fits,
+            (Timer | WideCounter, Bool) => Fit::Fits,
+            (Int | Word | Timer | Raw16, Timer | Raw16) => Fit::Fits,
+            (Timer | Raw16, Int | Word) => Fit::Fits,
+            (Dint | Dword | Time | WideCounter | Raw32, WideCounter | Raw32) => Fit::Fits,
+            (WideCounter | Raw32, Dint | Dword | Time) => Fit::Fits,
+            (Bool, _) | (_, Bool) => Fit::Unlike,
+            (Real, _) => Fit::Loses,
+            (Fraction, _) => Fit::Loses,
+            (_, Real) => Fit::Converts,
+            (from, to) if from.is_wide() && !to.is_wide() => Fit::Loses,
+            _ => Fit::Converts,
+        }
+    }
+
+    /// The common type of the operands of an operator; `None` if there is none.
+    pub(crate) fn common(self, other: Ty) -> Option<Ty> {
+        let (a, b) = (self, other);
+        if a == b {
+            return Some(a);
+        }
+        // Of a device and a declared type, the declared one says how the value is meant.
+        let rank = |ty: Ty| match ty {
+            Ty::Integer => 0,
+            Ty::Fraction => 1,
+            Ty::Timer | Ty::WideCounter => 2,
+            Ty::Raw16 | Ty::Raw32 => 3,
+            _ => 4,
+        };
+        let (low, high) = if rank(a) <= rank(b) { (a, b) } else { (b, a) };
+        (high != Ty::Bool && low.fit(high) == Fit::Fits).then_some(high)
+    }
+
+    /// Name of the function that converts into another type, where there is one.
+    pub(crate) fn conversion(self, to: Ty) -> Option<String> {
+        let name = |ty: Ty| match ty {
+            Ty::Raw16 | Ty::Timer => Some("INT"),
+            Ty::Raw32 | Ty::WideCounter => Some("DINT"),
+            Ty::Integer | Ty::Fraction => None,
+            Ty::Bool => Some("BOOL"),
+            Ty::Int => Some("INT"),
+            Ty::Word => Some("WORD"),
+            Ty::Dint => Some("DINT"),
+            Ty::Dword => Some("DWORD"),
+            Ty::Real => Some("REAL"),
+            Ty::Time => Some("TIME"),
+        };
+        let function = format!("{}_TO_{}", name(self)?, name(to)?);
+        crate::convert::find(&function).map(|_| function)
+    }
+}
+
+impl fmt::Display for Ty {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Ty::Bool => "a BOOL",
+            Ty::Int => "an INT",
+            Ty::Word => "a WORD",
+            Ty::Dint => "a DINT",
+            Ty::Dword => "a DWORD",
+            Ty::Real => "a REAL",
+            Ty::Time => "a TIME",
+            Ty::Timer => "a timer or counter",
+            Ty::WideCounter => "a counter of 32 bits",
+            Ty::Raw16 => "a register of 16 bits",
+            Ty::Raw32 => "a group of 32 bits",
+            Ty::Integer => "a whole number",
+            Ty::Fraction => "a number with a fraction",
+        })
+    }
+}

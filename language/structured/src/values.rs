@@ -1,0 +1,488 @@
+//! Types of expressions, and the instructions that compute numbers.
+
+use crate::ast::{Arg, Expr, ExprKind, Op};
+use crate::convert::{self, Steps};
+use crate::device;
+use crate::emit::{Compiler, Made, both, fail, relay};
+use crate::fold;
+use crate::labels::{Stored, value_in};
+use crate::literal::{Const, Literal};
+use crate::types::{Fit, Ty};
+use rungc_syntax::{Device, Operand, OperandKind, codes, diag::did_you_mean};
+
+/// Something that has a device.
+#[derive(Clone, Debug)]
+pub(crate) struct Place {
+    pub operand: OperandKind,
+    pub ty: Ty,
+    /// True for a name, false for a bit or element of one.
+    pub is_name: bool,
+}
+
+impl Compiler<'_> {
+    /// The device that an expression names, or an error if it names none.
+    pub(crate) fn place(&self, expr: &Expr) -> Made<Option<Place>> {
+        match &expr.kind {
+            ExprKind::Name(name) => self.named(name, expr),
+            ExprKind::Address(text) => match device::address(text) {
+                Some((operand, ty)) => Ok(Some(Place {
+                    operand,
+                    ty,
+                    is_name: true,
+                })),
+                None => {
+                    let error =
+                        codes::ST_UNKNOWN_NAME.at(expr.span, format!("`{text}` is not an address"));
+                    fail(error.help("write the device, such as `X0`, `M10` or `D10`"))
+                }
+            },
+            ExprKind::Member(of, member) => self.member(of, member, expr),
+            ExprKind::Index(of, indexes) => self.element(of, indexes, expr).map(Some),
+            _ => Ok(None),
+        }
+    }
+
+    fn named(&self, name: &str, expr: &Expr) -> Made<Option<Place>> {
+        let Some(label) = self.labels.get(name) else {
+            if let Some((operand, ty)) = device::find(name) {
+                return Ok(Some(Place {
+                    operand,
+                    ty,
+                    is_name: true,
+                }));
+            }
+            if fold::constant(self.labels, expr).is_some() {
+                return Ok(None);
+            }
+            return fail(self.unknown(name, expr));
+        };
+        match &label.stored {
+            Stored::Device(operand) if label.bounds.is_none() => Ok(Some(Place {
+                operand: operand.clone(),
+                ty: label.ty,
+                is_name: true,
+            })),
+            Stored::Device(_) => {
+                let error =
+                    codes::ST_UNSUPPORTED.at(expr.span, format!("`{name}` is a whole array"));
+                fail(error.help("name an element: whole arrays are not compiled yet"))
+            }
+            Stored::Constant(_) => Ok(None),
+            // Its declaration is reported.
+            Stored::Unknown => Err(Vec::new()),
+        }
+    }
+
+    fn unknown(&self, name: &str, expr: &Expr) -> rungc_syntax::Diagnostic {
+        let upper = name.to_uppercase();
+        let names = self
+            .labels
+            .all()
+            .map(|label| (label.name.to_uppercase(), &label.name));
+        let names: Vec<_> = names.collect();
+        let meant = did_you_mean(&upper, names.iter().map(|(upper, _)| upper.as_str()));
+        let meant = meant.and_then(|meant| names.iter().find(|(upper, _)| upper == meant));
+        let error = codes::ST_UNKNOWN_NAME.at(expr.span, format!("nothing declares `{name}`"));
+        match meant {
+            Some((_, meant)) => error.help(format!("did you mean `{meant}`?")),
+            None => error.help("declare it in `VAR` … `END_VAR`, or write a device such as `M0`"),
+        }
+    }
+
+    /// A bit of a register.
+    fn member(&self, of: &Expr, member: &str, expr: &Expr) -> Made<Option<Place>> {
+        if let Some(name) = of.name()
+            && self.labels.get(name).is_none()
+            && device::float(name, member).is_some()
+        {
+            return Ok(None);
+        }
+        let Some(word) = self.place(of)? else {
+            return fail(codes::ST_TYPE.at(of.span, "this has no members"));
+        };
+        let bit = device::bit(&word.operand, member).filter(|_| word.ty.words() == 1);
+        let Some(operand) = bit else {
+            let what = format!("`{member}` is not a bit of {}", word.ty);
+            return fail(
+                codes::ST_TYPE
+                    .at(expr.span, what)
+                    .help("a register of 16 bits has the bits 0 to F"),
+            );
+        };
+        let ty = Ty::Bool;
+        Ok(Some(Place {
+            operand,
+            ty,
+            is_name: false,
+        }))
+    }
+
+    /// An element of an array, by a constant index.
+    fn element(&self, of: &Expr, indexes: &[Expr], expr: &Expr) -> Made<Place> {
+        let label = of.name().and_then(|name| self.labels.get(name));
+        let (Some(label), [index]) = (label, indexes) else {
+            return fail(codes::ST_TYPE.at(of.span, "this is not an array of one dimension"));
+        };
+        let Some((first, last)) = label.bounds else {
+            return fail(codes::ST_TYPE.at(of.span, format!("`{}` is not an array", label.name)));
+        };
+        let Stored::Device(OperandKind::Device(base, None)) = label.stored else {
+            return Err(Vec::new());
+        };
+        let at = match fold::constant(self.labels, index) {
+            Some((Const::Int(at), _)) => at,
+            Some(_) => return fail(codes::ST_TYPE.at(index.span, "an index is a whole number")),
+            None => {
+                let error = codes::ST_UNSUPPORTED.at(
+                    index.span,
+                    "an index that is not constant is not compiled yet",
+                );
+                return fail(error.help("write an index register: `D100Z0`"));
+            }
+        };
+        if at < first || at > last {
+            let what = format!("`{}` has the elements {first} to {last}", label.name);
+            return fail(codes::ST_LITERAL.at(expr.span, what));
+        }
+        let each = i64::from(label.ty.words().max(1));
+        let number = i64::from(base.number) + (at - first) * each;
+        let number = u32::try_from(number).unwrap_or(u32::MAX);
+        let operand = OperandKind::Device(Device { number, ..base }, None);
+        let ty = label.ty;
+        Ok(Place {
+            operand,
+            ty,
+            is_name: false,
+        })
+    }
+
+    /// The type of an expression.
+    pub(crate) fn ty(&self, expr: &Expr) -> Made<Ty> {
+        if let Some((_, ty)) = self.constant(expr)? {
+            return Ok(ty);
+        }
+        match &expr.kind {
+            ExprKind::Number(text) | ExprKind::Typed(text) => {
+                fail(codes::ST_LITERAL.at(expr.span, format!("`{text}` is not a value")))
+            }
+            ExprKind::Text(_) => {
+                fail(codes::ST_UNSUPPORTED.at(expr.span, "texts are not compiled yet"))
+            }
+            ExprKind::Unread => Err(Vec::new()),
+            ExprKind::Call(of, args) => self.type_of_call(of, args, expr),
+            ExprKind::Not(of) => {
+                let ty = self.ty(of)?;
+                match ty {
+                    ty if ty.is_bit() => Ok(Ty::Bool),
+                    _ => {
+                        let what = format!("NOT takes a BOOL, and this is {ty}");
+                        fail(codes::ST_TYPE.at(of.span, what))
+                    }
+                }
+            }
+            ExprKind::Neg(of) => match self.ty(of)? {
+                ty if ty.is_bit() && ty == Ty::Bool || ty.is_unsigned() => {
+                    fail(codes::ST_TYPE.at(expr.span, format!("{ty} has no negative values")))
+                }
+                ty => Ok(ty),
+            },
+            ExprKind::Binary(op, left, right) => self.type_of_binary(*op, left, right),
+            _ => Ok(self.place(expr)?.map_or(Ty::Raw16, |place| place.ty)),
+        }
+    }
+
+    fn type_of_binary(&self, op: Op, left: &Expr, right: &Expr) -> Made<Ty> {
+        let (a, b) = both(self.ty(left), self.ty(right))?;
+        let span = left.span.to(right.span);
+        if op == Op::Power {
+            return fail(codes::ST_UNSUPPORTED.at(span, "`**` is not compiled yet"));
+        }
+        let logic = matches!(op, Op::And | Op::Or | Op::Xor);
+        if (logic || matches!(op, Op::Eq | Op::Ne))
+            && a.is_bit()
+            && b.is_bit()
+            && (a == Ty::Bool || b == Ty::Bool || logic)
+        {
+            return Ok(Ty::Bool);
+        }
+        let misfit = || {
+            let error = codes::ST_TYPE.at(span, format!("`{}` joins {a} and {b}", op.sign()));
+            let error = error
+                .other(left.span, format!("{a}"))
+                .other(right.span, format!("{b}"));
+            let converts = a.conversion(b).or_else(|| b.conversion(a));
+            fail(match converts {
+                Some(function) => error.help(format!("convert one side: `{function}(…)`")),
+                None => error,
+            })
+        };
+        let Some(ty) = a.common(b).filter(|ty| *ty != Ty::Bool) else {
+            return misfit();
+        };
+        if (logic || op == Op::Mod) && !ty.is_whole() {
+            return misfit();
+        }
+        if matches!(op, Op::Div | Op::Mod)
+            && let Some((Const::Int(0), _)) = fold::constant(self.labels, right)
+        {
+            let error = codes::ST_ZERO.at(span, "this divides by 0");
+            return fail(error.other(right.span, "the constant 0"));
+        }
+        Ok(if op.compares() { Ty::Bool } else { ty })
+    }
+
+    fn type_of_call(&self, of: &Expr, args: &[Arg], expr: &Expr) -> Made<Ty> {
+        let name = of.name().unwrap_or_default();
+        if let Some((from, to, _)) = convert::find(name) {
+            let [arg] = args else {
+                let what = format!("`{name}` takes one argument, and {} are given", args.len());
+                return fail(codes::ST_ARGUMENTS.at(expr.span, what));
+            };
+            let ty = self.ty(&arg.value)?;
+            if ty.fit(from) != Fit::Fits {
+                let what = format!("`{name}` takes {from}, and this is {ty}");
+                return fail(codes::ST_TYPE.at(arg.value.span, what));
+            }
+            return Ok(to);
+        }
+        if is_edge(name) {
+            let [arg] = args else {
+                let what = format!("`{name}` takes one argument, and {} are given", args.len());
+                return fail(codes::ST_ARGUMENTS.at(expr.span, what));
+            };
+            self.expect(&arg.value, Ty::Bool)?;
+            return Ok(Ty::Bool);
+        }
+        let what = format!("the function `{name}` is not compiled yet");
+        fail(codes::ST_UNSUPPORTED.at(of.span, what))
+    }
+
+    /// The value of a constant expression.
+    pub(crate) fn constant(&self, expr: &Expr) -> Made<Option<Literal>> {
+        Ok(fold::constant(self.labels, expr))
+    }
+
+    /// Holds an expression to a type.
+    pub(crate) fn expect(&self, expr: &Expr, ty: Ty) -> Made<()> {
+        if let Some(literal) = self.constant(expr)? {
+            return value_in(literal, ty, expr.span)
+                .map(drop)
+                .map_err(|error| vec![*error]);
+        }
+        let of = self.ty(expr)?;
+        let help = |error: rungc_syntax::Diagnostic| match of.conversion(ty) {
+            Some(function) => error.help(format!("write `{function}(…)`")),
+            None if ty == Ty::Bool => error.help("compare it with something, such as `<> 0`"),
+            None => error,
+        };
+        let what = format!("this is {of}, where {ty} is expected");
+        match of.fit(ty) {
+            Fit::Fits => Ok(()),
+            Fit::Loses => fail(help(codes::ST_LOSES.at(expr.span, what))),
+            Fit::Converts | Fit::Unlike => fail(help(codes::ST_TYPE.at(expr.span, what))),
+        }
+    }
+
+    /// An operand with the value of an expression, which is computed before if it has to be.
+    pub(crate) fn operand(&mut self, expr: &Expr, ty: Ty) -> Made<Operand> {
+        self.expect(expr, ty)?;
+        let span = expr.span;
+        if let Some(literal) = self.constant(expr)? {
+            let value = value_in(literal, ty, span).map_err(|error| vec![*error])?;
+            let kind = constant_operand(value, ty);
+            return kind.map(|kind| Operand { span, kind }).ok_or_else(|| {
+                vec![codes::ST_LITERAL.at(span, "the PLC has no such floating-point number")]
+            });
+        }
+        if let Some(place) = self.place(expr)? {
+            return Ok(Operand {
+                span,
+                kind: place.operand,
+            });
+        }
+        let kind = self.compute(expr, ty, None)?;
+        Ok(Operand { span, kind })
+    }
+
+    /// Computes an expression under a rung that is always on, into a target or a temporary; gives the device that
+    /// holds it.
+    pub(crate) fn compute(
+        &mut self,
+        expr: &Expr,
+        ty: Ty,
+        target: Option<&Operand>,
+    ) -> Made<OperandKind> {
+        match &expr.kind {
+            ExprKind::Binary(op, left, right) => self.binary(*op, (left, right), ty, target),
+            ExprKind::Neg(of) => {
+                let operand = self.operand(of, ty)?;
+                let zero = match ty {
+                    Ty::Real => OperandKind::Float(0.0),
+                    _ => OperandKind::Decimal(0, None),
+                };
+                let zero = self.here(zero);
+                self.direct("SUB", ty, [zero, operand], target)
+            }
+            ExprKind::Call(of, args) => {
+                let name = of.name().unwrap_or_default();
+                let Some(conversion) = convert::find(name) else {
+                    let what = format!("the function `{name}` is not compiled yet");
+                    return fail(codes::ST_UNSUPPORTED.at(of.span, what));
+                };
+                let result = self.converted(conversion, &args[0].value)?;
+                self.moved(result, ty, target)
+            }
+            _ => {
+                let result = self.operand(expr, ty)?.kind;
+                self.moved(result, ty, target)
+            }
+        }
+    }
+
+    /// An operation that writes its result straight into the target.
+    fn direct(
+        &mut self,
+        name: &str,
+        ty: Ty,
+        operands: [Operand; 2],
+        target: Option<&Operand>,
+    ) -> Made<OperandKind> {
+        let result = match target {
+            Some(target) => target.clone(),
+            None => {
+                let temporary = self.temporary(ty.words())?;
+                self.here(OperandKind::Device(temporary, None))
+            }
+        };
+        let kind = result.kind.clone();
+        let [first, second] = operands;
+        self.always(&Self::sized(name, ty), [first, second, result]);
+        Ok(kind)
+    }
+
+    /// Copies a result into the target, if there is one.
+    fn moved(
+        &mut self,
+        result: OperandKind,
+        ty: Ty,
+        target: Option<&Operand>,
+    ) -> Made<OperandKind> {
+        let Some(target) = target else {
+            return Ok(result);
+        };
+        let source = self.here(result);
+        self.always(&Self::sized("MOV", ty), [source, target.clone()]);
+        Ok(target.kind.clone())
+    }
+
+    fn binary(
+        &mut self,
+        op: Op,
+        (left, right): (&Expr, &Expr),
+        ty: Ty,
+        target: Option<&Operand>,
+    ) -> Made<OperandKind> {
+        let (a, b) = both(self.operand(left, ty), self.operand(right, ty))?;
+        let direct = match op {
+            Op::Add => Some("ADD"),
+            Op::Sub => Some("SUB"),
+            Op::Mul if ty == Ty::Real => Some("MUL"),
+            Op::Div if ty == Ty::Real => Some("DIV"),
+            Op::And => Some("WAND"),
+            Op::Or => Some("WOR"),
+            Op::Xor => Some("WXOR"),
+            _ => None,
+        };
+        if let Some(name) = direct {
+            return self.direct(name, ty, [a, b], target);
+        }
+        let words = ty.words();
+        let temporary = self.temporary(2 * words)?;
+        let result = self.here(OperandKind::Device(temporary, None));
+        let name = if op == Op::Mul { "MUL" } else { "DIV" };
+        self.always(&Self::sized(name, ty), [a, b, result]);
+        let number = match op {
+            Op::Mod => temporary.number + words,
+            _ => temporary.number,
+        };
+        let result = OperandKind::Device(
+            Device {
+                number,
+                ..temporary
+            },
+            None,
+        );
+        self.moved(result, ty, target)
+    }
+
+    /// The device that holds a converted value.
+    fn converted(
+        &mut self,
+        (from, to, steps): convert::Conversion,
+        arg: &Expr,
+    ) -> Made<OperandKind> {
+        let source = self.operand(arg, from)?;
+        if matches!(steps, Steps::Same | Steps::Low) {
+            return match (steps, &source.kind) {
+                (Steps::Low, OperandKind::Device(..)) | (Steps::Same, _) => Ok(source.kind),
+                _ => {
+                    let what = "a constant or a group of bits is not converted";
+                    fail(
+                        codes::ST_UNSUPPORTED
+                            .at(arg.span, what)
+                            .help("assign it to a label first"),
+                    )
+                }
+            };
+        }
+        let temporary = self.temporary(to.words())?;
+        let kind = OperandKind::Device(temporary, None);
+        let result = self.here(kind.clone());
+        match steps {
+            Steps::Sign => {
+                let one = self.here(OperandKind::Decimal(1, None));
+                self.always("MUL", [one, source, result]);
+            }
+            Steps::Zero => {
+                let number = temporary.number + 1;
+                let upper = self.here(OperandKind::Device(
+                    Device {
+                        number,
+                        ..temporary
+                    },
+                    None,
+                ));
+                self.always("MOV", [source, result]);
+                self.push("RST", [upper]);
+            }
+            Steps::Float(name) => self.always(name, [source, result]),
+            Steps::ToFloat(name) => {
+                let whole = self.here(relay(8023));
+                self.always("RST", [whole]);
+                self.push(name, [source, result]);
+            }
+            Steps::Same | Steps::Low => {}
+        }
+        Ok(kind)
+    }
+}
+
+/// Instructions that detect an edge of a condition.
+pub(crate) fn is_edge(name: &str) -> bool {
+    name.eq_ignore_ascii_case("MEP") || name.eq_ignore_ascii_case("MEF")
+}
+
+/// A constant as an operand.
+fn constant_operand(value: Const, ty: Ty) -> Option<OperandKind> {
+    Some(match value {
+        Const::Real(value) => OperandKind::float(value as f32)?,
+        Const::Int(value) if ty == Ty::Real => OperandKind::float(value as f32)?,
+        // Above the largest signed number, the same bits.
+        Const::Int(value) if !ty.is_wide() && value > i64::from(i16::MAX) => {
+            OperandKind::Hex(value as u64, None)
+        }
+        Const::Int(value) if value > i64::from(i32::MAX) => OperandKind::Hex(value as u64, None),
+        Const::Int(value) => OperandKind::Decimal(value, None),
+        Const::Bool(value) => OperandKind::Decimal(value.into(), None),
+    })
+}
