@@ -51,6 +51,8 @@ pub(crate) struct Compiler<'a> {
     pub loops: Vec<Device>,
     /// Where RETURN leads, once it was used.
     pub end: Option<Device>,
+    /// What came of the statements.
+    pub statements: Vec<crate::Outcome>,
 }
 
 pub(crate) const fn relay(number: u32) -> OperandKind {

@@ -25,9 +25,10 @@ use ast::{Text, UnitKind};
 use emit::Compiler;
 use labels::{Labels, Stored, Supply};
 use rungc_models::Model;
-use rungc_syntax::{Device, Diagnostics, OperandKind, Program, SourceKind, Span, codes};
+use rungc_syntax::{Device, Diagnostics, Instr, OperandKind, Program, SourceKind, Span, codes};
 use smol_str::ToSmolStr;
 use std::collections::BTreeMap;
+use std::mem;
 
 /// Devices that are known for labels without one, by their names in upper case.
 pub type Known = BTreeMap<String, Device>;
@@ -44,7 +45,7 @@ pub fn compile_with(program: &mut Program, model: &'static Model, known: &Known)
     if program.kind != SourceKind::StructuredText || !program.instrs.is_empty() {
         return out;
     }
-    let source = std::mem::take(&mut program.source);
+    let source = mem::take(&mut program.source);
     let mut found = Vec::new();
     let compiled = compiled(&source.text, model, known, &mut found);
     let has_errors = found
@@ -72,10 +73,47 @@ pub fn check_syntax(text: &str) -> Diagnostics {
     out
 }
 
+/// What came of a statement when a program was compiled in spite of errors.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Outcome {
+    /// Place of the statement, or of the part of it before other statements; its instructions have the same place.
+    pub span: Span,
+    /// False if it was not compiled.
+    pub is_compiled: bool,
+}
+
+/// A program that was compiled as far as it can be, to measure how much of it can.
+#[derive(Debug, Default)]
+pub struct Trial {
+    /// Its statements, each before those inside of it.
+    pub statements: Vec<Outcome>,
+    /// Instructions of those that were compiled.
+    pub instrs: Vec<Instr>,
+    /// Findings.
+    pub diagnostics: Diagnostics,
+}
+
+/// Compiles a text as far as it can be, with devices that are known for labels without one.
+pub fn trial(text: &str, model: &'static Model, known: &Known) -> Trial {
+    let mut found = Vec::new();
+    let compiled = compiled(text, model, known, &mut found);
+    let mut diagnostics = Diagnostics::new();
+    diagnostics.extend(found);
+    let (statements, instrs) = compiled.map_or_else(Default::default, |compiled| {
+        (compiled.statements, compiled.instrs)
+    });
+    Trial {
+        statements,
+        instrs,
+        diagnostics,
+    }
+}
+
 /// A program as a list.
 struct Compiled {
     name: String,
-    instrs: Vec<rungc_syntax::Instr>,
+    instrs: Vec<Instr>,
+    statements: Vec<Outcome>,
     comments: BTreeMap<Device, String>,
 }
 
@@ -154,6 +192,7 @@ fn compiled(
         is_powered: false,
         loops: Vec::new(),
         end: None,
+        statements: Vec::new(),
     };
     compiler.body(&program.body);
     compiler.span = program.name.span;
@@ -164,6 +203,7 @@ fn compiled(
         compiler.push(last, []);
     }
     let (instrs, more) = (compiler.instrs, compiler.found);
+    let statements = compiler.statements;
     found.extend(more);
     if !found
         .iter()
@@ -174,6 +214,7 @@ fn compiled(
     Some(Compiled {
         name: program.name.text.to_string(),
         instrs,
+        statements,
         comments: comments(&labels),
     })
 }

@@ -1,6 +1,7 @@
 //! Statements: assignments, branches and loops.
 
 use crate::ast::{Arm, Body, Expr, ExprKind, For, Label, Op, Stmt, StmtKind};
+use crate::Outcome;
 use crate::conditions::{Cond, Join};
 use crate::emit::{Compiler, Made, both, fail};
 use crate::fold;
@@ -30,8 +31,20 @@ impl Compiler<'_> {
             }
             self.span = head(stmt);
             self.heading = self.shown(self.span);
-            if let Err(errors) = self.statement(stmt) {
-                self.found.extend(errors);
+            let at = self.statements.len();
+            self.statements.push(Outcome {
+                span: self.span,
+                is_compiled: false,
+            });
+            let before = self.instrs.len();
+            match self.statement(stmt) {
+                Ok(()) => self.statements[at].is_compiled = stmt.kind != StmtKind::Unread,
+                Err(errors) => {
+                    self.found.extend(errors);
+                    // Half a statement is worth nothing.
+                    self.instrs.truncate(before);
+                    self.is_powered = false;
+                }
             }
         }
         self.heading = None;

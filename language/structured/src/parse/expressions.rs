@@ -84,6 +84,7 @@ fn unary<'t>(operand: Rule<'t, Expr>) -> Rule<'t, Expr> {
                     Expr { kind, span }
                 })
         })
+        .labelled("an expression")
         .boxed()
 }
 

@@ -1,0 +1,6 @@
+//! Structured text as users have it: what is wrong with it, what becomes of it, and how that compares with what the
+//! vendor's compiler makes.
+
+mod oracle;
+mod robust;
+mod texts;
