@@ -219,6 +219,8 @@ pub(crate) enum ExprKind {
     Not(Box<Expr>),
     Neg(Box<Expr>),
     Binary(Op, Box<Expr>, Box<Expr>),
+    /// Initial values of an array; true if all are 0.
+    Initial(bool),
     /// It could not be read, which is reported.
     Unread,
 }

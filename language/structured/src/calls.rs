@@ -78,7 +78,7 @@ impl Compiler<'_> {
     fn driven(&mut self, name: &str, found: &Found, enable: &Expr, args: &[Arg]) -> Made<()> {
         let params = parameters(found, args.len());
         let order = call_order(params);
-        let mut errors = Vec::new();
+        let (mut errors, mut failed) = (Vec::new(), false);
         let mut operands: Vec<Option<Operand>> = vec![None; params.len()];
         let mut widths = Ty::Int;
         let before = self.instrs.len();
@@ -88,20 +88,26 @@ impl Compiler<'_> {
                     widths = ty.unwrap_or(widths);
                     operands[at] = Some(operand);
                 }
-                Err(more) => errors.extend(more),
+                Err(more) => {
+                    failed = true;
+                    errors.extend(more);
+                }
             }
         }
         let computed = self.instrs.len() > before;
         let enabled = self.enabled(enable, computed);
         let enabled = match enabled {
-            Ok(enabled) if errors.is_empty() => enabled,
+            Ok(enabled) if !failed => enabled,
             Ok(_) => return Err(errors),
             Err(more) => {
                 errors.extend(more);
                 return Err(errors);
             }
         };
-        self.enable(&enabled);
+        match computed {
+            true => self.load(&enabled),
+            false => self.enable(&enabled),
+        }
         let operands: Vec<Operand> = operands.into_iter().flatten().collect();
         if name == "RST" && widths.is_wide() && widths != Ty::WideCounter {
             return self.reset_both(operands);

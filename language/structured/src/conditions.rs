@@ -32,9 +32,6 @@ pub(crate) enum Cond {
     Joined(Join, Rc<Cond>, Rc<Cond>),
 }
 
-/// Conditions of more contacts are rejected: `=` of conditions doubles them.
-const MOST: usize = 512;
-
 impl Cond {
     pub(crate) fn is_single(&self) -> bool {
         !matches!(self, Cond::Joined(..))
@@ -74,13 +71,6 @@ impl Cond {
             }
         }
     }
-
-    fn size(&self) -> usize {
-        match self {
-            Cond::Joined(_, a, b) => a.size() + b.size(),
-            _ => 1,
-        }
-    }
 }
 
 const fn opposite(op: Op) -> Op {
@@ -116,7 +106,10 @@ impl Compiler<'_> {
             return Ok(contact(if is_on { ON } else { OFF }, true));
         }
         match &expr.kind {
-            ExprKind::Not(of) => Ok(self.contacts(of)?.opposite()),
+            ExprKind::Not(of) => {
+                let is_equality = self.is_equality(of);
+                Ok(self.contacts(of)?.opposite_of_equality(is_equality))
+            }
             ExprKind::Binary(op @ (Op::And | Op::Or), left, right) => {
                 let join = if *op == Op::And { Join::And } else { Join::Or };
                 let (a, b) = both(self.contacts(left), self.contacts(right))?;
@@ -125,18 +118,7 @@ impl Compiler<'_> {
             ExprKind::Binary(op @ (Op::Eq | Op::Ne | Op::Xor), left, right)
                 if self.are_bits(left, right)? =>
             {
-                let (a, b) = both(self.contacts(left), self.contacts(right))?;
-                if a.size() + b.size() > MOST {
-                    let what = format!(
-                        "the conditions on both sides of `{}` are too long",
-                        op.sign()
-                    );
-                    return fail(
-                        codes::ST_UNSUPPORTED
-                            .at(expr.span, what)
-                            .help("assign one of them to a label"),
-                    );
-                }
+                let (a, b) = both(self.side(left), self.side(right))?;
                 let equal = Cond::joined(
                     Join::Or,
                     Cond::joined(Join::And, a.clone(), b.clone()),
@@ -166,6 +148,16 @@ impl Compiler<'_> {
                 }
             },
         }
+    }
+
+    /// A side of `=` or `<>`: a compound one goes through a bit.
+    fn side(&mut self, expr: &Expr) -> Made<Cond> {
+        let cond = self.contacts(expr)?;
+        if cond.is_single() {
+            return Ok(cond);
+        }
+        self.load(&cond);
+        self.in_bit(expr.span)
     }
 
     fn are_bits(&self, left: &Expr, right: &Expr) -> Made<bool> {

@@ -75,6 +75,17 @@ impl Supply {
         })
     }
 
+    /// Leaves out devices that are known for labels.
+    pub(crate) fn avoid(&mut self, known: &Known) {
+        for device in known.values() {
+            for free in [&mut self.d, &mut self.m, &mut self.t, &mut self.c] {
+                if free.class == device.class {
+                    free.avoid(device.number);
+                }
+            }
+        }
+    }
+
     /// The next pointer, from the bottom of the range up.
     pub(crate) fn pointer(&mut self) -> Option<Device> {
         let number = self.p.from_bottom()?;
@@ -262,6 +273,7 @@ impl Labels {
     /// An initial value other than 0 is not compiled for FX.
     fn initial(&self, initial: &Expr) -> Option<Diagnostic> {
         let is_zero = match fold::constant(self, initial) {
+            _ if initial.kind == ExprKind::Initial(true) => true,
             Some((Const::Int(0) | Const::Bool(false), _)) => true,
             Some((Const::Real(value), _)) => value == 0.0,
             _ => false,

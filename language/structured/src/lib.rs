@@ -178,6 +178,7 @@ fn compiled(
     }
     let mut labels = Labels::default();
     let mut supply = Supply::new(ranges::of(model));
+    supply.avoid(known);
     for section in tree.globals.iter().chain(&program.sections) {
         labels.declare(section, &mut supply, known, found);
     }

@@ -80,6 +80,13 @@ impl Free {
         Some(first)
     }
 
+    /// Leaves out a number that is taken already, and those above it.
+    pub(crate) fn avoid(&mut self, number: u32) {
+        if (self.first..self.end).contains(&number) {
+            self.end = number;
+        }
+    }
+
     /// The lowest number.
     pub(crate) fn from_bottom(&mut self) -> Option<u32> {
         let number = self.first;

@@ -1,7 +1,7 @@
 //! Statements: assignments, branches and loops.
 
-use crate::ast::{Arm, Body, Expr, ExprKind, For, Label, Op, Stmt, StmtKind};
 use crate::Outcome;
+use crate::ast::{Arm, Body, Expr, ExprKind, For, Label, Op, Stmt, StmtKind};
 use crate::conditions::{Cond, Join};
 use crate::emit::{Compiler, Made, both, fail};
 use crate::fold;
@@ -244,7 +244,7 @@ impl Compiler<'_> {
     }
 
     /// Returns true for `=` and `<>` of conditions, of which one is just the opposite of the other.
-    fn is_equality(&self, expr: &Expr) -> bool {
+    pub(crate) fn is_equality(&self, expr: &Expr) -> bool {
         match &expr.kind {
             ExprKind::Binary(Op::Eq | Op::Ne, left, _) => self.ty(left).is_ok_and(Ty::is_bit),
             _ => false,
@@ -484,7 +484,7 @@ impl Compiler<'_> {
 
 impl Cond {
     /// The opposite; of `=` and `<>` of conditions with the contacts in the order of the other operator.
-    fn opposite_of_equality(&self, is_equality: bool) -> Cond {
+    pub(crate) fn opposite_of_equality(&self, is_equality: bool) -> Cond {
         match self {
             Cond::Joined(Join::Or, first, second) if is_equality => {
                 let turned = |pair: &Cond| match pair {

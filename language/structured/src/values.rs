@@ -168,7 +168,7 @@ impl Compiler<'_> {
             ExprKind::Text(_) => {
                 fail(codes::ST_UNSUPPORTED.at(expr.span, "texts are not compiled yet"))
             }
-            ExprKind::Unread => Err(Vec::new()),
+            ExprKind::Unread | ExprKind::Initial(_) => Err(Vec::new()),
             ExprKind::Call(of, args) => self.type_of_call(of, args, expr),
             ExprKind::Not(of) => {
                 let ty = self.ty(of)?;
@@ -289,7 +289,12 @@ impl Compiler<'_> {
         let span = expr.span;
         if let Some(literal) = self.constant(expr)? {
             let value = value_in(literal, ty, span).map_err(|error| vec![*error])?;
-            let kind = constant_operand(value, ty);
+            let kind = match value {
+                Const::Int(value) if is_hexadecimal(expr) && ty != Ty::Real => u64::try_from(value)
+                    .ok()
+                    .map(|value| OperandKind::Hex(value, None)),
+                value => constant_operand(value, ty),
+            };
             return kind.map(|kind| Operand { span, kind }).ok_or_else(|| {
                 vec![codes::ST_LITERAL.at(span, "the PLC has no such floating-point number")]
             });
@@ -312,6 +317,10 @@ impl Compiler<'_> {
         ty: Ty,
         target: Option<&Operand>,
     ) -> Made<OperandKind> {
+        if self.constant(expr)?.is_some() {
+            let result = self.operand(expr, ty)?.kind;
+            return self.moved(result, ty, target);
+        }
         match &expr.kind {
             ExprKind::Binary(op, left, right) => self.binary(*op, (left, right), ty, target),
             ExprKind::Neg(of) => {
@@ -329,8 +338,7 @@ impl Compiler<'_> {
                     let what = format!("the function `{name}` is not compiled yet");
                     return fail(codes::ST_UNSUPPORTED.at(of.span, what));
                 };
-                let result = self.converted(conversion, &args[0].value)?;
-                self.moved(result, ty, target)
+                self.converted(conversion, &args[0].value, target)
             }
             _ => {
                 let result = self.operand(expr, ty)?.kind;
@@ -415,43 +423,40 @@ impl Compiler<'_> {
         self.moved(result, ty, target)
     }
 
-    /// The device that holds a converted value.
+    /// Converts a value into a target or a temporary; gives the device that holds it.
     fn converted(
         &mut self,
         (from, to, steps): convert::Conversion,
         arg: &Expr,
+        target: Option<&Operand>,
     ) -> Made<OperandKind> {
         let source = self.operand(arg, from)?;
-        if matches!(steps, Steps::Same | Steps::Low) {
-            return match (steps, &source.kind) {
-                (Steps::Low, OperandKind::Device(..)) | (Steps::Same, _) => Ok(source.kind),
-                _ => {
-                    let what = "a constant or a group of bits is not converted";
-                    fail(
-                        codes::ST_UNSUPPORTED
-                            .at(arg.span, what)
-                            .help("assign it to a label first"),
-                    )
-                }
-            };
+        if steps == Steps::Low && !matches!(source.kind, OperandKind::Device(..)) {
+            let what = "a constant or a group of bits is not converted to 16 bits";
+            let error = codes::ST_UNSUPPORTED.at(arg.span, what);
+            return fail(error.help("assign it to a label first"));
         }
-        let temporary = self.temporary(to.words())?;
-        let kind = OperandKind::Device(temporary, None);
-        let result = self.here(kind.clone());
+        // A multiplication and the two halves of a double word need a place of their own.
+        let own = matches!(steps, Steps::Sign | Steps::Zero);
+        let result = match target.filter(|_| !own) {
+            Some(target) => target.clone(),
+            None => {
+                let temporary = self.temporary(to.words())?;
+                self.here(OperandKind::Device(temporary, None))
+            }
+        };
+        let kind = result.kind.clone();
         match steps {
+            Steps::Same | Steps::Low => self.always(&Self::sized("MOV", to), [source, result]),
             Steps::Sign => {
                 let one = self.here(OperandKind::Decimal(1, None));
                 self.always("MUL", [one, source, result]);
             }
             Steps::Zero => {
-                let number = temporary.number + 1;
-                let upper = self.here(OperandKind::Device(
-                    Device {
-                        number,
-                        ..temporary
-                    },
-                    None,
-                ));
+                let mut upper = result.clone();
+                if let OperandKind::Device(device, _) = &mut upper.kind {
+                    device.number += 1;
+                }
                 self.always("MOV", [source, result]);
                 self.push("RST", [upper]);
             }
@@ -461,15 +466,27 @@ impl Compiler<'_> {
                 self.always("RST", [whole]);
                 self.push(name, [source, result]);
             }
-            Steps::Same | Steps::Low => {}
         }
-        Ok(kind)
+        match target.filter(|_| own) {
+            Some(target) => self.moved(kind, to, Some(target)),
+            None => Ok(kind),
+        }
     }
 }
 
 /// Instructions that detect an edge of a condition.
 pub(crate) fn is_edge(name: &str) -> bool {
     name.eq_ignore_ascii_case("MEP") || name.eq_ignore_ascii_case("MEF")
+}
+
+/// Returns true for a constant that is written in hexadecimal digits, as it then stays.
+fn is_hexadecimal(expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Name(name) => device::constant(name).is_some() && name.starts_with(['H', 'h']),
+        ExprKind::Number(text) => text.starts_with("16#"),
+        ExprKind::Typed(text) => text.contains("#16#"),
+        _ => false,
+    }
 }
 
 /// A constant as an operand.

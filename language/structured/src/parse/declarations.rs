@@ -194,7 +194,7 @@ fn variable<'t>() -> Rule<'t, Variable> {
         .at_least(1)
         .collect::<Vec<_>>();
     let place_of = keyword("AT").ignore_then(device());
-    let initial = sign(":=").ignore_then(expression());
+    let initial = sign(":=").ignore_then(choice((expression(), values())));
     names
         .then(place_of.or_not())
         .then_ignore(sign(":"))
@@ -211,6 +211,31 @@ fn variable<'t>() -> Rule<'t, Variable> {
                 span: place(e),
             },
         )
+        .boxed()
+}
+
+/// Initial values of an array: `[8(0)]`, `[1, 2, 3]`.
+fn values<'t>() -> Rule<'t, Expr> {
+    let value = expression();
+    let repeated = value.clone().delimited_by(sign("("), sign(")"));
+    let one = value.then(repeated.or_not()).map(|(first, repeated)| {
+        let value = match (first.kind, repeated) {
+            // `8(0)` where 8 is a name would be a call.
+            (_, Some(repeated)) => repeated.kind,
+            (kind, None) => kind,
+        };
+        match value {
+            ExprKind::Number(text) => text.chars().all(|c| matches!(c, '0' | '.')),
+            ExprKind::Name(text) => text.eq_ignore_ascii_case("FALSE"),
+            _ => false,
+        }
+    });
+    let all = one.separated_by(sign(",")).collect::<Vec<_>>();
+    all.delimited_by(sign("["), sign("]"))
+        .map_with(|all, e| Expr {
+            kind: ExprKind::Initial(all.iter().all(|is_zero| *is_zero)),
+            span: place(e),
+        })
         .boxed()
 }
 

@@ -27,7 +27,10 @@ fn statements_compared_with_the_vendor() {
     let mut total = Tally::default();
     for folder in folders.split(':') {
         let found = rungc_frontend::programs(Path::new(folder), 9).expect("a folder");
-        for path in found.iter().filter(|path| path.extension().is_some_and(|ending| ending == "gxw")) {
+        for path in found
+            .iter()
+            .filter(|path| path.extension().is_some_and(|ending| ending == "gxw"))
+        {
             project(path, &mut total);
         }
     }
@@ -37,8 +40,15 @@ fn statements_compared_with_the_vendor() {
 
 impl Tally {
     fn line(&self, name: &str) -> String {
-        let Tally { statements, compiled, equal, nearly } = self;
-        format!("{name}: {statements} statements, {compiled} compiled, {equal} equal, {nearly} nearly")
+        let Tally {
+            statements,
+            compiled,
+            equal,
+            nearly,
+        } = self;
+        format!(
+            "{name}: {statements} statements, {compiled} compiled, {equal} equal, {nearly} nearly"
+        )
     }
 }
 
@@ -59,9 +69,11 @@ fn project(path: &Path, total: &mut Tally) {
     for file in texts().filter(|file| !file.path.contains('/')) {
         let name = file.path.trim_end_matches(".st");
         let unit = text(&file.contents);
-        let unit = unit
-            .replace("END_FUNCTION_BLOCK", "END_PROGRAM")
-            .replacen("FUNCTION_BLOCK", "PROGRAM", 1);
+        let unit = unit.replace("END_FUNCTION_BLOCK", "END_PROGRAM").replacen(
+            "FUNCTION_BLOCK",
+            "PROGRAM",
+            1,
+        );
         let known = known(sources, name);
         let tried = trial(&format!("{globals}{unit}"), model, &known);
         let tally = compare(&tried, &read, sources);
@@ -81,7 +93,9 @@ fn known(sources: &Sources, unit: &str) -> Known {
     let devices = sources.devices();
     let local = format!("{unit}.");
     let name = |name: &str| match name.rsplit_once(&local) {
-        Some((before, label)) if before.is_empty() || before.ends_with('.') => Some(label.to_uppercase()),
+        Some((before, label)) if before.is_empty() || before.ends_with('.') => {
+            Some(label.to_uppercase())
+        }
         _ if !name.contains('.') => Some(name.split('[').next().unwrap_or(name).to_uppercase()),
         _ => None,
     };
@@ -112,11 +126,19 @@ fn plain(instr: &Instr, declared: &BTreeSet<Device>) -> String {
     };
     let operand = |kind: &OperandKind| match kind {
         OperandKind::Device(device, _) if device.class == DeviceClass::P => "P".to_owned(),
-        OperandKind::Device(device, None) if is_temporary(device) => format!("{}#", device.class.prefix()),
+        OperandKind::Device(device, None) if is_temporary(device) => {
+            format!("{}#", device.class.prefix())
+        }
         kind => kind.to_string(),
     };
-    let is_label = instr.operands.is_empty() && instr.mnemonic.starts_with('P') && instr.mnemonic[1..].parse::<u32>().is_ok();
-    let mut line = if is_label { "P".to_owned() } else { instr.mnemonic.to_string() };
+    let is_label = instr.operands.is_empty()
+        && instr.mnemonic.starts_with('P')
+        && instr.mnemonic[1..].parse::<u32>().is_ok();
+    let mut line = if is_label {
+        "P".to_owned()
+    } else {
+        instr.mnemonic.to_string()
+    };
     for one in &instr.operands {
         line.push(' ');
         line.push_str(&operand(&one.kind));
@@ -127,8 +149,17 @@ fn plain(instr: &Instr, declared: &BTreeSet<Device>) -> String {
 /// For each instruction of a trial, true if the vendor's list has it there.
 fn matched(tried: &Trial, read: &Read, sources: &Sources) -> Vec<bool> {
     let declared = declared(sources);
-    let ours: Vec<_> = tried.instrs.iter().map(|instr| plain(instr, &declared)).collect();
-    let theirs: Vec<_> = read.program.instrs.iter().map(|instr| plain(instr, &declared)).collect();
+    let ours: Vec<_> = tried
+        .instrs
+        .iter()
+        .map(|instr| plain(instr, &declared))
+        .collect();
+    let theirs: Vec<_> = read
+        .program
+        .instrs
+        .iter()
+        .map(|instr| plain(instr, &declared))
+        .collect();
     let mut matched = vec![false; ours.len()];
     for op in capture_diff_slices(Algorithm::Myers, &ours, &theirs) {
         if let DiffOp::Equal { old_index, len, .. } = op {
@@ -144,10 +175,23 @@ fn compare(tried: &Trial, read: &Read, sources: &Sources) -> Tally {
         statements: tried.statements.len(),
         ..Tally::default()
     };
-    for statement in tried.statements.iter().filter(|statement| statement.is_compiled) {
-        let own = tried.instrs.iter().zip(&matched).filter(|(instr, _)| instr.span == statement.span);
-        let missing: Vec<_> = own.filter(|(_, matched)| !**matched).map(|(instr, _)| instr).collect();
-        let is_power = |instr: &&Instr| instr.mnemonic == "LD" && instr.operands[0].kind.to_string() == "M8000";
+    for statement in tried
+        .statements
+        .iter()
+        .filter(|statement| statement.is_compiled)
+    {
+        let own = tried
+            .instrs
+            .iter()
+            .zip(&matched)
+            .filter(|(instr, _)| instr.span == statement.span);
+        let missing: Vec<_> = own
+            .filter(|(_, matched)| !**matched)
+            .map(|(instr, _)| instr)
+            .collect();
+        let is_power = |instr: &&Instr| {
+            instr.mnemonic == "LD" && instr.operands[0].kind.to_string() == "M8000"
+        };
         tally.compiled += 1;
         if missing.is_empty() {
             tally.equal += 1;
@@ -160,19 +204,35 @@ fn compare(tried: &Trial, read: &Read, sources: &Sources) -> Tally {
 
 /// Prints errors, and the statements that differ.
 fn show(tried: &Trial, text: &str, read: &Read, sources: &Sources) {
-    for found in tried.diagnostics.iter().filter(|found| found.severity == Severity::Error) {
+    for found in tried
+        .diagnostics
+        .iter()
+        .filter(|found| found.severity == Severity::Error)
+    {
         let quoted = text.get(found.span.range()).unwrap_or_default();
         println!("  {} {}: {quoted}", found.code, found.message);
     }
     let matched = matched(tried, read, sources);
     let declared = declared(sources);
-    for statement in tried.statements.iter().filter(|statement| statement.is_compiled) {
-        let own = tried.instrs.iter().zip(&matched).filter(|(instr, _)| instr.span == statement.span);
+    for statement in tried
+        .statements
+        .iter()
+        .filter(|statement| statement.is_compiled)
+    {
+        let own = tried
+            .instrs
+            .iter()
+            .zip(&matched)
+            .filter(|(instr, _)| instr.span == statement.span);
         let own: Vec<_> = own.collect();
         if own.iter().any(|(_, matched)| !**matched) {
             println!("  {}", text.get(statement.span.range()).unwrap_or_default());
             for (instr, matched) in own {
-                println!("    {} {}", if *matched { "=" } else { "-" }, plain(instr, &declared));
+                println!(
+                    "    {} {}",
+                    if *matched { "=" } else { "-" },
+                    plain(instr, &declared)
+                );
             }
         }
     }
