@@ -81,7 +81,12 @@ impl Compiler<'_> {
         let (mut errors, mut failed) = (Vec::new(), false);
         let mut operands: Vec<Option<Operand>> = vec![None; params.len()];
         let mut widths = Ty::Int;
-        let before = self.instrs.len();
+        // A compound EN is stored before anything is computed.
+        let computed = args.iter().any(|arg| !self.is_plain(&arg.value));
+        let enabled = match computed {
+            true => self.enabled(enable),
+            false => Ok(None),
+        };
         for (arg, at) in args.iter().zip(order) {
             match self.argument(&arg.value, &params[at], found.form.wide) {
                 Ok((operand, ty)) => {
@@ -94,8 +99,11 @@ impl Compiler<'_> {
                 }
             }
         }
-        let computed = self.instrs.len() > before;
-        let enabled = self.enabled(enable, computed);
+        let enabled = match enabled {
+            Ok(Some(stored)) => Ok(stored),
+            Ok(None) => self.condition(enable),
+            Err(more) => Err(more),
+        };
         let enabled = match enabled {
             Ok(enabled) if !failed => enabled,
             Ok(_) => return Err(errors),
@@ -129,14 +137,22 @@ impl Compiler<'_> {
         Ok(())
     }
 
-    /// The condition of EN; a compound one goes through a bit where something is computed.
-    fn enabled(&mut self, enable: &Expr, computed: bool) -> Made<Cond> {
-        let cond = self.condition(enable)?;
-        if !computed || cond.is_single() {
-            return Ok(cond);
+    /// The bit of a compound EN; `None` for a single contact or comparison.
+    fn enabled(&mut self, enable: &Expr) -> Made<Option<Cond>> {
+        let is_compound = matches!(enable.kind, ExprKind::Binary(op, ..) if !op.compares())
+            || matches!(&enable.kind, ExprKind::Not(of) if matches!(of.kind, ExprKind::Binary(op, ..) if !op.compares()))
+            || self.is_equality(enable);
+        if !is_compound {
+            return Ok(None);
         }
+        let cond = self.condition(enable)?;
         self.load(&cond);
-        self.in_bit(enable.span)
+        self.in_bit(enable.span).map(Some)
+    }
+
+    /// Returns true for an argument that nothing has to be computed for.
+    fn is_plain(&self, expr: &Expr) -> bool {
+        matches!(self.constant(expr), Ok(Some(_))) || !matches!(self.place(expr), Ok(None))
     }
 
     /// Begins the rung of EN.
@@ -225,17 +241,11 @@ impl Compiler<'_> {
             Ty::Integer => Ty::Raw16,
             ty => ty,
         };
-        let before = self.instrs.len();
+        let stored = self.enabled(&enable.value)?;
         let value = self.operand(&value.value, ty)?;
-        let computed = self.instrs.len() > before;
-        let cond = self.condition(&enable.value)?;
-        let cond = match cond.is_single() && !computed {
-            true => cond,
-            false if cond.is_single() => cond,
-            false => {
-                self.load(&cond);
-                self.in_bit(enable.value.span)?
-            }
+        let cond = match stored {
+            Some(stored) => stored,
+            None => self.condition(&enable.value)?,
         };
         self.enable(&cond);
         let device = Operand {

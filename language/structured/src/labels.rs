@@ -75,6 +75,17 @@ impl Supply {
         })
     }
 
+    /// Frees the temporaries that were taken since `earlier`. Bits are used again only when few are left: a coil that
+    /// stands once is easier to read.
+    pub(crate) fn release(&mut self, earlier: &Supply) {
+        /// More than a statement takes.
+        const FEW: u32 = 100;
+        self.d.release(&earlier.d);
+        if self.m.left() < FEW {
+            self.m.release(&earlier.m);
+        }
+    }
+
     /// Leaves out devices that are known for labels.
     pub(crate) fn avoid(&mut self, known: &Known) {
         for device in known.values() {

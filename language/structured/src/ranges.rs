@@ -80,6 +80,16 @@ impl Free {
         Some(first)
     }
 
+    /// Number of those that are left.
+    pub(crate) fn left(&self) -> u32 {
+        self.end.saturating_sub(self.first)
+    }
+
+    /// Returns to an earlier state: what was taken since is free again.
+    pub(crate) fn release(&mut self, earlier: &Free) {
+        self.end = earlier.end;
+    }
+
     /// Leaves out a number that is taken already, and those above it.
     pub(crate) fn avoid(&mut self, number: u32) {
         if (self.first..self.end).contains(&number) {

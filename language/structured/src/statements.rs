@@ -17,6 +17,7 @@ impl Compiler<'_> {
     /// Compiles statements. What is wrong in one keeps no other from being compiled.
     pub(crate) fn body(&mut self, body: &Body) {
         let mut left: Option<Span> = None;
+        let free = self.supply.clone();
         for stmt in body {
             if let Some(by) = left.take() {
                 let warning = codes::ST_UNREACHABLE.at(stmt.span, "this is never run");
@@ -36,6 +37,7 @@ impl Compiler<'_> {
                 span: self.span,
                 is_compiled: false,
             });
+            self.supply.release(&free);
             let before = self.instrs.len();
             match self.statement(stmt) {
                 Ok(()) => self.statements[at].is_compiled = stmt.kind != StmtKind::Unread,
