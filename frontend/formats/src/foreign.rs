@@ -39,7 +39,7 @@ pub(crate) fn detect(name: &str, text: &str) -> Option<(Program, Diagnostic)> {
         ),
         Language::StructuredText => (
             "structured text",
-            "compile it in its editor and export the list of the compiled program",
+            "name the file `.st`, begin it with `PROGRAM Name` and end it with `END_PROGRAM`",
         ),
     };
     let diagnostic = codes::FOREIGN_LANGUAGE

@@ -33,9 +33,9 @@ super::codes! {
 
     FOREIGN_LANGUAGE = "E0006" "foreign-language" Error None,
     "the text is not an FX instruction list",
-    "Programs are read as instruction lists of the FX family, as the editors' list export, or as projects of GX Developer and GX Works2. Instruction list and structured text of IEC 61131-3 are other languages: their addresses (`%IX0.0`), declarations (`VAR`) and statements (`IF … THEN`, `:=`) have no counterpart here. Export the compiled program as a list from the editor, or rewrite it.",
-    wrong: "PROGRAM Motor\nVAR\n  Run : BOOL;\nEND_VAR\n",
-    right: "LD X0\nOUT Y0\nEND\n";
+    "Programs are read as instruction lists of the FX family, as structured text, as the editors' list export, or as projects of GX Developer and GX Works2. Instruction list of IEC 61131-3 is another language: its addresses (`%IX0.0`) and operators have no counterpart here. Structured text is read from files that end in `.st`, and where a text begins with `PROGRAM`.",
+    wrong: "LD %IX0.0\nAND %IX0.1\nST %QX0.0\n",
+    right: "LD X0\nAND X1\nOUT Y0\nEND\n";
 
     LOOK_ALIKE = "E0007" "look-alike" Error None,
     "letter of another alphabet that looks Latin",

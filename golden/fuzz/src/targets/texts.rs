@@ -4,6 +4,8 @@ use super::Target;
 use rungc_fleet::Fleet;
 use rungc_frontend::Names;
 use rungc_host::{duration, io};
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::{Model, ModelId};
 use rungc_project::Project;
 use rungc_project::serve::{FxEnd, Line, LineEnd};
 use rungc_sim::property;
@@ -54,6 +56,25 @@ fn connections(text: &str) {
     }
 }
 
+/// Structured text, which is also compiled where it has no mistakes.
+fn structured(text: &str) {
+    let Ok(mut read) = rungc_frontend::read_bytes("a.st", text.as_bytes()) else {
+        return;
+    };
+    let model = Model::get(ModelId::Fx1s);
+    let found = rungc_structured::compile(&mut read.program, model);
+    let places = found.iter().all(|one| {
+        let range = one.span.range();
+        read.program.source.text.get(range).is_some()
+    });
+    assert!(places, "{found:?}");
+    let options = CompileOptions {
+        model: Some(model.id),
+        ..CompileOptions::default()
+    };
+    let _ = compile(&read.program, &options);
+}
+
 fn names(text: &str) {
     let _ = Names::parse(text);
 }
@@ -96,7 +117,7 @@ fn target(name: &'static str, run: fn(&str), seeds: &[&str]) -> Target {
     }
 }
 
-pub(super) fn targets() -> [Target; 6] {
+pub(super) fn targets() -> [Target; 7] {
     [
         target(
             "fleet-file",
@@ -129,6 +150,14 @@ pub(super) fn targets() -> [Target; 6] {
                 "[io.panel]\nfiles = \"panel\"\nX000-X001 = \"read buttons\"\nD100 = \"read level loss -1\"\nevery = \"10ms\"\nfault = \"M100\"\n",
                 "[io.cell]\nmqtt = \"192.168.1.5\"\nX000-X007 = \"read cell/in\"\nD0-D3 = \"read cell/{}\"\nY000 = \"write cell/lamp\"\n---\n{\"X000\":1,\"X003\":false,\"D0\":-7}",
                 "[io.remote]\nmodbus-tcp = \"127.0.0.1:502\"\nX010-X017 = \"discrete 1/0\"\nD0 = \"holding 1/100\"\n---\n[1, 2, 3]",
+            ],
+        ),
+        target(
+            "structured-text",
+            structured,
+            &[
+                "PROGRAM P\nVAR\n  a AT X0 : BOOL;\n  n : INT;\n  x : ARRAY [0..3] OF DINT;\nEND_VAR\nIF a AND n < 10 THEN n := n + 1; ELSIF NOT a THEN n := 0; ELSE x[1] := x[0] * 3; END_IF;\nOUT_T(a, TC0, 50);\nMOV(TS0 AND a, n + 1, D10);\nEND_PROGRAM\n",
+                "PROGRAM P\nCASE D0 OF 1, 3: D1 := 16#FF; 5..7: SET(X0, M1); ELSE D1 := D2 MOD 3; END_CASE;\nFOR D3 := 0 TO 9 BY 3 DO D4 := D4 + D3; EXIT; END_FOR;\nWHILE D5 > 0 DO D5 := D5 - 1; END_WHILE;\nREPEAT D6 := -D6; UNTIL M0 = (M1 OR D7.3) END_REPEAT; (* end *)\nRETURN; // last\nEND_PROGRAM\n",
             ],
         ),
         target(

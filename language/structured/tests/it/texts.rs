@@ -1,1 +1,145 @@
-//! Texts of users.
+//! What becomes of texts: lists, and findings.
+
+use rungc_models::{Model, ModelId};
+use rungc_structured::compile;
+use rungc_syntax::{Program, Severity, Source, SourceKind, codes};
+use std::fmt::Write as _;
+
+/// The program of a text, and its findings with their lines and columns.
+fn compiled(text: &str, model: ModelId) -> (Program, String) {
+    let mut program = Program {
+        source: Source::new("a.st", text),
+        kind: SourceKind::StructuredText,
+        unread: vec![0],
+        ..Program::default()
+    };
+    let found = compile(&mut program, Model::get(model));
+    let mut shown = String::new();
+    for one in found.sorted() {
+        let (line, column) = program.source.line_col(one.span.start);
+        let _ = writeln!(shown, "{line}:{column} {} {}", one.code, one.message);
+        for text in [Some(one.label), one.help]
+            .into_iter()
+            .flatten()
+            .filter(|text| !text.is_empty())
+        {
+            let _ = writeln!(shown, "    {text}");
+        }
+        for other in one.others {
+            let (line, column) = program.source.line_col(other.span.start);
+            let _ = writeln!(shown, "    {line}:{column} {}", other.text);
+        }
+    }
+    (program, shown)
+}
+
+/// A text as a list, each statement above what it became.
+fn list(text: &str) -> String {
+    let (program, found) = compiled(text, ModelId::Fx3u);
+    let mut shown = found;
+    for instr in &program.instrs {
+        if let Some(statement) = instr.statement() {
+            let _ = writeln!(shown, "; {statement}");
+        }
+        let _ = write!(shown, "{}", instr.mnemonic);
+        for operand in &instr.operands {
+            let _ = write!(shown, " {}", operand.kind);
+        }
+        shown.push('\n');
+    }
+    shown
+}
+
+fn body(statements: &str) -> String {
+    let labels = "a AT M1 : BOOL;\nb AT M2 : BOOL;\nc AT M3 : BOOL;\ni AT D10 : INT;\nj AT D11 : INT;\nd AT D20 : DINT;\n\
+        e AT D22 : DINT;\nr AT D30 : REAL;\ns AT D32 : REAL;\nu AT D40 : DWORD;\nv AT D42 : DWORD;\nw AT D50 : WORD;\n\
+        t AT D60 : TIME;\nx AT D100 : ARRAY [0..9] OF INT;\n";
+    format!("PROGRAM P\nVAR\n{labels}END_VAR\n{statements}END_PROGRAM\n")
+}
+
+#[test]
+fn conditions_have_the_contacts_of_gx_works2() {
+    insta::assert_snapshot!(list(&body(
+        "c := a AND NOT b;\nc := a AND i = 0;\nc := NOT a AND i = 0;\nc := a AND (b OR i > 5);\n\
+         c := a AND b AND (X0 OR X1);\nc := d > e;\nc := u >= v;\nc := a = b;\nc := (a OR b) <> X1;\nc := NOT (a AND b);\n\
+         c := D100.3;\nc := TRUE;\nc := i + j > 5;\nc := a XOR b;\n"
+    )));
+}
+
+#[test]
+fn assignments_have_the_instructions_of_gx_works2() {
+    insta::assert_snapshot!(list(&body(
+        "i := j;\nd := e;\nr := s;\ni := i + 1;\ni := i * 3;\ni := j MOD 3;\nd := d / 7;\nr := r * s + 1.5;\n\
+         w := w AND 16#00FF;\nd := d OR 16#1;\nd := INT_TO_DINT(i);\nr := INT_TO_REAL(i);\ni := REAL_TO_INT(r);\n\
+         i := DINT_TO_INT(d);\nt := T#1m30s;\nx[3] := x[4] + 1;\nD0Z5 := i;\ni := -j;\ni := -1;\ni := 16 / 4;\n"
+    )));
+}
+
+#[test]
+fn branches_and_loops_have_the_jumps_of_gx_works2() {
+    insta::assert_snapshot!(list(&body(
+        "IF a THEN i := 1; END_IF;\nIF a AND b THEN i := 1; END_IF;\nIF i = 3 THEN j := 1; ELSE j := 2; END_IF;\n\
+         IF a THEN i := 1; ELSIF b THEN i := 2; ELSE i := 3; END_IF;\n\
+         CASE i OF 1: j := 1; 2: j := 2; END_CASE;\nCASE i OF 1, 3: j := 1; 5..7: j := 2; ELSE j := 3; END_CASE;\n\
+         FOR i := 0 TO j DO d := d + e; END_FOR;\nFOR i := 9 TO 0 BY -3 DO EXIT; END_FOR;\n\
+         WHILE i < 10 DO i := i + 1; END_WHILE;\nREPEAT i := i - 1; UNTIL i = 0 END_REPEAT;\nRETURN;\n"
+    )));
+}
+
+#[test]
+fn calls_have_the_operands_in_the_order_of_the_manual() {
+    insta::assert_snapshot!(list(&body(
+        "MOV(a, i, j);\nDMOV(TRUE, d, e);\nBMOV(a, x[0], 5, D200);\nROL(a, 3, w);\nSET(a AND b, c);\nRST(a, d);\n\
+         OUT_T(a, TC0, 50);\nOUT_T(a AND b, TC0, i);\nINC(a, i);\nEI(TRUE);\nMOV(a, i + 1, j);\nMOV(a AND b, i + 1, j);\n\
+         MOV(TRUE, i + 1, j);\nSET(MEP(a), c);\nPLS(a, c);\nDECO(a, i, 6, M100);\nDMOV(a, -45_000, d);\nMOV(a, H0C87, D8120);\n"
+    )));
+}
+
+#[test]
+fn mistakes_are_reported_where_they_are() {
+    insta::assert_snapshot!(compiled(include_str!("mistakes.st"), ModelId::Fx3u).1);
+}
+
+/// The programs of the table of codes.
+#[test]
+fn examples_of_codes_show_their_code() {
+    let all = codes::all();
+    let of_text = |code: &&&codes::Code| code.name.starts_with("st-");
+    let mut shown = String::new();
+    for code in all.iter().filter(of_text) {
+        let (_, found) = compiled(code.wrong, ModelId::Fx3u);
+        assert!(found.contains(code.id), "{} is not shown: {found}", code.id);
+        let _ = writeln!(shown, "--- {} {}\n{found}", code.id, code.name);
+        let (_, found) = compiled(code.right, ModelId::Fx3u);
+        assert!(found.is_empty(), "{}: {found}", code.id);
+    }
+    insta::assert_snapshot!(shown);
+}
+
+#[test]
+fn labels_get_devices_of_the_range_of_the_model_from_the_top() {
+    let text = "PROGRAM P\nVAR\n    a, b : BOOL;\n    i : INT;\n    d : DINT;\nEND_VAR\na := b; d := 1; i := 2;\nEND_PROGRAM\n";
+    let devices = |model| {
+        let (program, found) = compiled(text, model);
+        assert_eq!(found, "");
+        program
+            .comments
+            .iter()
+            .map(|(device, name)| format!("{name} {device}"))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    assert_eq!(devices(ModelId::Fx3u), "b M7678, a M7679, d D997, i D999");
+    assert_eq!(devices(ModelId::Fx1s), "b M510, a M511, d D253, i D255");
+}
+
+#[test]
+fn a_program_with_errors_is_not_compiled() {
+    let (program, found) = compiled("PROGRAM P\nY0 := Start;\nEND_PROGRAM\n", ModelId::Fx3u);
+    assert!(found.contains(codes::ST_UNKNOWN_NAME.id));
+    assert!(program.instrs.is_empty() && !program.is_complete());
+    let other = Program::default();
+    let mut same = other.clone();
+    let found = compile(&mut same, Model::get(ModelId::Fx3u));
+    assert!(!found.iter().any(|one| one.severity == Severity::Error) && same.instrs.is_empty());
+}

@@ -2,13 +2,16 @@
 
 use rungc_analysis::check::check;
 use rungc_analysis::resolve::resolve;
-use rungc_frontend::read_text;
+use rungc_frontend::{read_bytes, read_text};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::{Diagnostic, Source};
 use std::fmt::Write;
 
 /// All findings about a program, with its source.
 pub fn findings(model: ModelId, text: &str) -> (Source, Vec<Diagnostic>) {
+    if text.starts_with("PROGRAM ") {
+        return findings_in_text(model, text);
+    }
     let read = read_text("program", text);
     let (resolved, mut found) = resolve(&read.program, Model::get(model));
     found.extend(check(&resolved).sorted());
@@ -16,6 +19,18 @@ pub fn findings(model: ModelId, text: &str) -> (Source, Vec<Diagnostic>) {
     diagnostics.refine(&found);
     let sorted = diagnostics.sorted();
     (read.program.source, sorted)
+}
+
+/// What is found in structured text, before and after it is a list.
+fn findings_in_text(model: ModelId, text: &str) -> (Source, Vec<Diagnostic>) {
+    let read = read_bytes("program.st", text.as_bytes());
+    let mut read = read.expect("a text");
+    let model = Model::get(model);
+    let mut found = rungc_structured::compile(&mut read.program, model);
+    let (resolved, more) = resolve(&read.program, model);
+    found.extend(more.sorted());
+    found.extend(check(&resolved).sorted());
+    (read.program.source, found.sorted())
 }
 
 /// Findings as plain text: code, place, message, quoted text, other places, help, the PLC's number.
