@@ -174,7 +174,7 @@ impl Compiler<'_> {
         param: &Param,
         is_wide: bool,
     ) -> Made<(Operand, Option<Ty>)> {
-        let writes = param.role != Role::Read;
+        let writes = is_output(param);
         if let Some(place) = self.place(expr)? {
             let (span, kind) = (expr.span, place.operand);
             return Ok((Operand { span, kind }, Some(place.ty)));
@@ -257,6 +257,12 @@ impl Compiler<'_> {
     }
 }
 
+/// Returns true for the name of an instruction that can be called.
+pub(crate) fn is_instruction(name: &str) -> bool {
+    let upper = name.to_ascii_uppercase();
+    rungc_catalogue::find(&upper).is_some_and(|found| is_callable(&found, &upper))
+}
+
 /// Returns true for what GX Works2 offers as a function: an instruction that a rung drives, or one that stands alone.
 fn is_callable(found: &Found, name: &str) -> bool {
     const NOT: [&str; 12] = [
@@ -282,12 +288,21 @@ fn parameters(found: &Found, given: usize) -> &'static [Param] {
     &all[..given.clamp(least, all.len())]
 }
 
+/// Returns true for a destination. BMOV may write its source, too, which stays one.
+fn is_output(param: &Param) -> bool {
+    match param.role {
+        Role::Read => false,
+        Role::Write => true,
+        Role::ReadWrite => !param.name.starts_with('S'),
+    }
+}
+
 /// Positions of the operands in the order of a call: what is read stands before what is written.
 fn call_order(params: &[Param]) -> impl Iterator<Item = usize> {
     let is = |writes: bool| {
         let positions = params.iter().enumerate();
         positions
-            .filter(move |(_, param)| (param.role != Role::Read) == writes)
+            .filter(move |(_, param)| is_output(param) == writes)
             .map(|(at, _)| at)
     };
     is(false).chain(is(true))
@@ -305,7 +320,7 @@ fn unknown(name: &str, of: &Expr) -> Diagnostic {
     let upper = name.to_ascii_uppercase();
     let spellings: Vec<String> = rungc_catalogue::all()
         .flat_map(|inst| inst.spellings().into_iter().map(|(spelling, _)| spelling))
-        .filter(|name| rungc_catalogue::find(name).is_some_and(|found| is_callable(&found, name)))
+        .filter(|name| is_instruction(name))
         .collect();
     let what = format!("`{name}` is not an instruction that can be called");
     let error = codes::ST_UNKNOWN_NAME.at(of.span, what);

@@ -5,7 +5,7 @@ use crate::device::{self, Place};
 use crate::literal::{Const, Literal, range};
 use crate::ranges::{Free, Ranges};
 use crate::types::{Fit, Ty};
-use crate::{Known, convert, fold};
+use crate::{Known, calls, convert, fold};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, OperandKind, Span, codes};
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -249,9 +249,7 @@ impl Labels {
         let is_device = device::find(text).is_some() || device::constant(text).is_some();
         let what = if is_device {
             "a device or constant"
-        } else if convert::find(text).is_some()
-            || rungc_catalogue::find(&text.to_ascii_uppercase()).is_some()
-        {
+        } else if convert::find(text).is_some() || calls::is_instruction(text) {
             "an instruction or function"
         } else {
             return None;

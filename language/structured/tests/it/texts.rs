@@ -36,6 +36,7 @@ fn compiled(text: &str, model: ModelId) -> (Program, String) {
 /// A text as a list, each statement above what it became.
 fn list(text: &str) -> String {
     let (program, found) = compiled(text, ModelId::Fx3u);
+    assert!(!program.instrs.is_empty(), "{found}");
     let mut shown = found;
     for instr in &program.instrs {
         if let Some(statement) = instr.statement() {
@@ -52,7 +53,7 @@ fn list(text: &str) -> String {
 
 fn body(statements: &str) -> String {
     let labels = "a AT M1 : BOOL;\nb AT M2 : BOOL;\nc AT M3 : BOOL;\ni AT D10 : INT;\nj AT D11 : INT;\nd AT D20 : DINT;\n\
-        e AT D22 : DINT;\nr AT D30 : REAL;\ns AT D32 : REAL;\nu AT D40 : DWORD;\nv AT D42 : DWORD;\nw AT D50 : WORD;\n\
+        e AT D22 : DINT;\nr AT D30 : REAL;\ns AT D32 : REAL;\nu AT D40 : DWORD;\nvv AT D42 : DWORD;\nw AT D50 : WORD;\n\
         t AT D60 : TIME;\nx AT D100 : ARRAY [0..9] OF INT;\n";
     format!("PROGRAM P\nVAR\n{labels}END_VAR\n{statements}END_PROGRAM\n")
 }
@@ -61,7 +62,7 @@ fn body(statements: &str) -> String {
 fn conditions_have_the_contacts_of_gx_works2() {
     insta::assert_snapshot!(list(&body(
         "c := a AND NOT b;\nc := a AND i = 0;\nc := NOT a AND i = 0;\nc := a AND (b OR i > 5);\n\
-         c := a AND b AND (X0 OR X1);\nc := d > e;\nc := u >= v;\nc := a = b;\nc := (a OR b) <> X1;\nc := NOT (a AND b);\n\
+         c := a AND b AND (X0 OR X1);\nc := d > e;\nc := u >= vv;\nc := a = b;\nc := (a OR b) <> X1;\nc := NOT (a AND b);\n\
          c := D100.3;\nc := TRUE;\nc := i + j > 5;\nc := a XOR b;\n"
     )));
 }
