@@ -3,11 +3,13 @@
 use crate::ast::{Arg, Expr, ExprKind};
 use crate::conditions::Cond;
 use crate::emit::{Compiler, Made, fail};
+use crate::labels::Stored;
 use crate::literal::Const;
 use crate::types::Ty;
 use rungc_catalogue::{Drive, Found, Param, Role, Shape};
 use rungc_syntax::diag::{counted, did_you_mean};
 use rungc_syntax::{Diagnostic, Operand, OperandKind, codes};
+use std::rc::Rc;
 
 impl Compiler<'_> {
     /// Compiles a call that is a statement.
@@ -21,7 +23,11 @@ impl Compiler<'_> {
         let Some(name) = of.name() else {
             return fail(codes::ST_UNSUPPORTED.at(of.span, "this cannot be called"));
         };
-        if self.labels.get(name).is_some() {
+        let labels = Rc::clone(&self.labels);
+        if let Some(label) = labels.get(name) {
+            if let Stored::Instance(instance) = &label.stored {
+                return self.expand(instance, args, expr);
+            }
             let what = format!("`{name}` is a label, which cannot be called");
             return fail(codes::ST_TYPE.at(of.span, what));
         }

@@ -1,11 +1,13 @@
 //! Instructions as they are made, with the place of their statement.
 
+use crate::ast::Unit;
 use crate::labels::{Labels, Supply};
 use crate::types::Ty;
 use rungc_syntax::{
     Device, DeviceClass, Diagnostic, Instr, Operand, OperandKind, Remarks, Span, codes,
 };
 use smol_str::{SmolStr, ToSmolStr};
+use std::rc::Rc;
 
 /// Findings about one statement.
 pub(crate) type Errors = Vec<Diagnostic>;
@@ -35,7 +37,9 @@ const MOST: usize = 200_000;
 
 /// The state of a compilation.
 pub(crate) struct Compiler<'a> {
-    pub labels: &'a Labels,
+    pub labels: Rc<Labels>,
+    /// All programs and blocks of the text.
+    pub units: &'a [Unit],
     pub supply: Supply,
     pub instrs: Vec<Instr>,
     pub found: Vec<Diagnostic>,
@@ -53,6 +57,8 @@ pub(crate) struct Compiler<'a> {
     pub end: Option<Device>,
     /// What came of the statements.
     pub statements: Vec<crate::Outcome>,
+    /// Number of blocks that were expanded.
+    pub expansions: usize,
 }
 
 pub(crate) const fn relay(number: u32) -> OperandKind {

@@ -1,6 +1,6 @@
 //! The labels of a program: their types, and their devices.
 
-use crate::ast::{Expr, ExprKind, Name, Section, TypeName, Variable};
+use crate::ast::{Expr, ExprKind, Name, Section, TypeName, Unit, UnitKind, Variable};
 use crate::device::{self, Place};
 use crate::literal::{Const, Literal, range};
 use crate::ranges::{Free, Ranges};
@@ -9,12 +9,18 @@ use crate::{Known, calls, convert, fold};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, OperandKind, Span, codes};
 use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// Levels of blocks within blocks.
+const DEEPEST: usize = 8;
 
 /// What a label stands for.
 #[derive(Clone, Debug)]
 pub(crate) enum Stored {
     Device(OperandKind),
     Constant(Const),
+    /// Instance of a function block.
+    Instance(Rc<Instance>),
     /// Its declaration is wrong, which is reported.
     Unknown,
 }
@@ -34,9 +40,31 @@ pub(crate) struct Label {
 }
 
 /// Labels by their names in upper case.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Labels {
     by_name: BTreeMap<String, Label>,
+    /// Labels that are global to these.
+    pub global: Option<Rc<Labels>>,
+}
+
+/// An instance of a function block, and the labels of its own.
+#[derive(Clone, Debug)]
+pub(crate) struct Instance {
+    /// Position of the block among the units.
+    pub unit: usize,
+    pub own: Labels,
+}
+
+/// What declarations take from, and add to.
+pub(crate) struct Declaring<'d> {
+    pub supply: &'d mut Supply,
+    pub known: &'d Known,
+    pub units: &'d [Unit],
+    pub found: &'d mut Vec<Diagnostic>,
+    /// Names of the instances around, each with a dot.
+    pub path: String,
+    /// Number of instances that may still be declared.
+    pub left: usize,
 }
 
 /// Numbers that are left for labels and temporaries.
@@ -108,11 +136,26 @@ impl Supply {
 }
 
 impl Labels {
+    /// None yet, below global ones.
+    pub(crate) fn below(global: Rc<Labels>) -> Self {
+        Labels {
+            global: Some(global),
+            ..Labels::default()
+        }
+    }
+
     /// The label of this name.
     pub(crate) fn get(&self, name: &str) -> Option<&Label> {
-        let label = self.by_name.get(&name.to_uppercase())?;
+        let Some(label) = self.by_name.get(&name.to_uppercase()) else {
+            return self.global.as_ref()?.get(name);
+        };
         label.is_used.set(true);
         Some(label)
+    }
+
+    /// Adds a label, in place of another of its name.
+    pub(crate) fn insert(&mut self, label: Label) {
+        self.by_name.insert(label.name.to_uppercase(), label);
     }
 
     /// All labels, in the order of their names.
@@ -121,43 +164,38 @@ impl Labels {
     }
 
     /// Declares the labels of a section.
-    pub(crate) fn declare(
-        &mut self,
-        section: &Section,
-        supply: &mut Supply,
-        known: &Known,
-        found: &mut Vec<Diagnostic>,
-    ) {
+    pub(crate) fn declare(&mut self, section: &Section, cx: &mut Declaring) {
         if !matches!(
             section.keyword.text.as_str(),
             "VAR" | "VAR_GLOBAL" | "VAR_CONSTANT" | "VAR_TEMP"
         ) {
             let what = format!("`{}` has no meaning in a program", section.keyword.text);
             let error = codes::ST_UNSUPPORTED.at(section.keyword.span, what);
-            found.push(error.help("a program declares its labels in `VAR` … `END_VAR`"));
+            cx.found
+                .push(error.help("a program declares its labels in `VAR` … `END_VAR`"));
         }
         for variable in &section.variables {
             if !variable.is_ended {
                 let end = Span::new(variable.span.end, variable.span.end);
                 let error = codes::ST_SYNTAX.at(end, "a declaration ends in `;`");
-                found.push(error.label("`;` is missing here"));
+                cx.found.push(error.label("`;` is missing here"));
             }
-            self.variable(variable, section.is_constant, (supply, known), found);
+            self.variable(variable, section.is_constant, cx);
         }
     }
 
-    fn variable(
-        &mut self,
-        variable: &Variable,
-        is_constant: bool,
-        (supply, known): (&mut Supply, &Known),
-        found: &mut Vec<Diagnostic>,
-    ) {
-        let of = self.type_of(&variable.of, found);
-        let stated = variable.place.as_ref().map(|place| stated(place, found));
+    fn variable(&mut self, variable: &Variable, is_constant: bool, cx: &mut Declaring) {
+        if let Some(unit) = block_of(variable, cx.units) {
+            for name in &variable.names {
+                self.instance(name, unit, cx);
+            }
+            return;
+        }
+        let of = self.type_of(&variable.of, cx.found);
+        let stated = variable.place.as_ref().map(|place| stated(place, cx.found));
         for name in &variable.names {
             if let Some(error) = self.clash(name) {
-                found.push(error);
+                cx.found.push(error);
                 continue;
             }
             let (ty, bounds) = of.unwrap_or((Ty::Raw16, None));
@@ -176,22 +214,68 @@ impl Labels {
                     (false, Some(place)) => place.clone().map_or(Ok(Stored::Unknown), |place| {
                         suits(place, ty, variable).map(Stored::Device)
                     }),
-                    (false, None) => chosen(&label, supply, known, variable),
+                    (false, None) => chosen(&label, cx, variable),
                 };
                 match stored {
                     Ok(stored) => label.stored = stored,
-                    Err(error) => found.push(*error),
+                    Err(error) => cx.found.push(*error),
                 }
                 if let (false, Some(initial)) = (is_constant, &variable.initial) {
-                    found.extend(self.initial(initial));
+                    cx.found.extend(self.initial(initial));
                 }
             }
             self.by_name.insert(name.text.to_uppercase(), label);
         }
     }
 
+    /// Declares an instance of a function block, with its labels.
+    fn instance(&mut self, name: &Name, unit: usize, cx: &mut Declaring) {
+        if let Some(error) = self.clash(name) {
+            cx.found.push(error);
+            return;
+        }
+        let block = &cx.units[unit];
+        let outer = cx.path.clone();
+        if outer.matches('.').count() >= DEEPEST || cx.left == 0 {
+            let what = format!(
+                "there are too many instances of blocks, or of blocks in blocks, at `{}`",
+                name.text
+            );
+            cx.found.push(codes::ST_UNSUPPORTED.at(name.span, what));
+            return;
+        }
+        cx.left -= 1;
+        cx.path = format!("{outer}{}.", name.text);
+        let mut own = Labels::default();
+        let before = cx.found.len();
+        let has_storage = |section: &&Section| {
+            !matches!(
+                section.keyword.text.as_str(),
+                "VAR_INPUT" | "VAR_OUTPUT" | "VAR_IN_OUT"
+            )
+        };
+        for section in block.sections.iter().filter(has_storage) {
+            own.declare(section, cx);
+        }
+        cx.path = outer;
+        // Each instance would report the same.
+        let mut kept = cx.found.split_off(before);
+        kept.retain(|one| !cx.found.contains(one));
+        cx.found.append(&mut kept);
+        let instance = Rc::new(Instance { unit, own });
+        self.insert(Label {
+            name: name.text.to_string(),
+            span: name.span,
+            ty: Ty::Raw16,
+            bounds: None,
+            stored: Stored::Instance(instance),
+            is_chosen: true,
+            is_used: Cell::new(false),
+        });
+    }
+
     /// The type of a declaration; an error is reported.
-    fn type_of(
+    pub(crate) fn type_of(
         &self,
         of: &TypeName,
         found: &mut Vec<Diagnostic>,
@@ -315,6 +399,15 @@ pub(crate) fn value_in((value, of): Literal, ty: Ty, span: Span) -> Result<Const
     }
 }
 
+/// The function block that a declaration names as its type.
+fn block_of(variable: &Variable, units: &[Unit]) -> Option<usize> {
+    let name = &variable.of.name.text;
+    let is_this =
+        |unit: &Unit| unit.kind == UnitKind::Block && unit.name.text.eq_ignore_ascii_case(name);
+    let is_plain = variable.of.bounds.is_empty() && variable.place.is_none();
+    units.iter().position(is_this).filter(|_| is_plain)
+}
+
 /// The device that a declaration states.
 fn stated(place: &Expr, found: &mut Vec<Diagnostic>) -> Option<Place> {
     let device = match &place.kind {
@@ -365,8 +458,7 @@ fn suits(
 /// A device for a label that states none.
 fn chosen(
     label: &Label,
-    supply: &mut Supply,
-    known: &Known,
+    cx: &mut Declaring,
     variable: &Variable,
 ) -> Result<Stored, Box<Diagnostic>> {
     let elements = label
@@ -380,11 +472,14 @@ fn chosen(
         ty => (DeviceClass::D, ty.words()),
     };
     let count = elements.saturating_mul(each.into());
-    let device = match known.get(&label.name.to_uppercase()) {
+    let device = match cx
+        .known
+        .get(&format!("{}{}", cx.path, label.name).to_uppercase())
+    {
         Some(device) => Some(*device),
         None => u32::try_from(count)
             .ok()
-            .and_then(|count| supply.take(class, count)),
+            .and_then(|count| cx.supply.take(class, count)),
     };
     let device = device.ok_or_else(|| {
         let what = format!("no device {} is left for `{}`", class.prefix(), label.name);

@@ -5,6 +5,7 @@
 //! on structured text names the others.
 
 mod ast;
+mod blocks;
 mod calls;
 mod conditions;
 mod convert;
@@ -23,12 +24,12 @@ mod values;
 
 use ast::{Text, UnitKind};
 use emit::Compiler;
-use labels::{Labels, Stored, Supply};
+use labels::{Declaring, Labels, Stored, Supply};
 use rungc_models::Model;
 use rungc_syntax::{Device, Diagnostics, Instr, OperandKind, Program, SourceKind, Span, codes};
-use smol_str::ToSmolStr;
 use std::collections::BTreeMap;
 use std::mem;
+use std::rc::Rc;
 
 /// Devices that are known for labels without one, by their names in upper case.
 pub type Known = BTreeMap<String, Device>;
@@ -144,17 +145,13 @@ fn compiled(
         );
         found.push(codes::ST_UNSUPPORTED.at(structure.name.span, what));
     }
-    for unit in tree
+    let functions = tree
         .units
         .iter()
-        .filter(|unit| unit.kind != UnitKind::Program)
-    {
-        let what = match unit.kind {
-            UnitKind::Function => "functions",
-            _ => "function blocks",
-        };
-        let what = format!("{what} of your own are not compiled yet");
-        found.push(codes::ST_UNSUPPORTED.at(unit.head.to(unit.name.span), what));
+        .filter(|unit| unit.kind == UnitKind::Function);
+    for unit in functions {
+        let span = unit.head.to(unit.name.span);
+        found.push(codes::ST_UNSUPPORTED.at(span, "functions of your own are not compiled yet"));
     }
     let mut programs = tree
         .units
@@ -176,14 +173,29 @@ fn compiled(
             codes::ST_UNSUPPORTED.at(span, "a text with several programs is not compiled yet");
         found.push(error.other(program.name.span, "the first program"));
     }
-    let mut labels = Labels::default();
     let mut supply = Supply::new(ranges::of(model));
     supply.avoid(known);
-    for section in tree.globals.iter().chain(&program.sections) {
-        labels.declare(section, &mut supply, known, found);
+    let mut cx = Declaring {
+        supply: &mut supply,
+        known,
+        units: &tree.units,
+        found,
+        path: String::new(),
+        left: blocks::MOST,
+    };
+    let mut global = Labels::default();
+    for section in &tree.globals {
+        global.declare(section, &mut cx);
     }
+    let global = Rc::new(global);
+    let mut labels = Labels::below(Rc::clone(&global));
+    for section in &program.sections {
+        labels.declare(section, &mut cx);
+    }
+    let labels = Rc::new(labels);
     let mut compiler = Compiler {
-        labels: &labels,
+        labels: Rc::clone(&labels),
+        units: &tree.units,
         supply,
         instrs: Vec::new(),
         found: Vec::new(),
@@ -194,6 +206,7 @@ fn compiled(
         loops: Vec::new(),
         end: None,
         statements: Vec::new(),
+        expansions: 0,
     };
     compiler.body(&program.body);
     compiler.span = program.name.span;
@@ -205,18 +218,24 @@ fn compiled(
     }
     let (instrs, more) = (compiler.instrs, compiler.found);
     let statements = compiler.statements;
-    found.extend(more);
+    // A block that is expanded several times reports its mistakes each time.
+    for one in more {
+        if !found.contains(&one) {
+            found.push(one);
+        }
+    }
     if !found
         .iter()
         .any(|one| one.severity == rungc_syntax::Severity::Error)
     {
         unused(&labels, found);
+        unused(&global, found);
     }
     Some(Compiled {
         name: program.name.text.to_string(),
         instrs,
         statements,
-        comments: comments(&labels),
+        comments: comments([&*global, &*labels]),
     })
 }
 
@@ -232,14 +251,26 @@ fn unused(labels: &Labels, found: &mut Vec<rungc_syntax::Diagnostic>) {
 }
 
 /// Names of labels as the comments of their devices.
-fn comments(labels: &Labels) -> BTreeMap<Device, String> {
+fn comments<'l>(all: impl IntoIterator<Item = &'l Labels>) -> BTreeMap<Device, String> {
     let mut comments = BTreeMap::new();
-    for label in labels.all().filter(|label| label.bounds.is_none()) {
-        if let Stored::Device(OperandKind::Device(device, None)) = &label.stored {
-            comments
-                .entry(*device)
-                .or_insert_with(|| label.name.to_smolstr().to_string());
-        }
+    for labels in all {
+        add_comments(labels, "", &mut comments);
     }
     comments
+}
+
+/// Adds those of some labels, whose names begin with `path`.
+fn add_comments(labels: &Labels, path: &str, comments: &mut BTreeMap<Device, String>) {
+    for label in labels.all().filter(|label| label.bounds.is_none()) {
+        let name = format!("{path}{}", label.name);
+        match &label.stored {
+            Stored::Device(OperandKind::Device(device, None)) => {
+                comments.entry(*device).or_insert(name);
+            }
+            Stored::Instance(instance) => {
+                add_comments(&instance.own, &format!("{name}."), comments);
+            }
+            _ => {}
+        }
+    }
 }

@@ -151,7 +151,7 @@ impl Compiler<'_> {
     /// Warns of alternatives that are never run, or never left out.
     fn warn_constant(&mut self, arms: &[Arm<Expr>], otherwise: Option<&Body>) {
         for (at, arm) in arms.iter().enumerate() {
-            let Some((Const::Bool(is_on), _)) = fold::constant(self.labels, &arm.when) else {
+            let Some((Const::Bool(is_on), _)) = fold::constant(&self.labels, &arm.when) else {
                 continue;
             };
             let dead = match is_on {
@@ -369,7 +369,7 @@ impl Compiler<'_> {
     }
 
     fn case_value(&self, expr: &Expr, ty: Ty) -> Made<i64> {
-        match fold::constant(self.labels, expr) {
+        match fold::constant(&self.labels, expr) {
             Some(literal @ (Const::Int(value), _)) => {
                 let fits = crate::labels::value_in(literal, ty, expr.span);
                 fits.map(|_| value).map_err(|error| vec![*error])
@@ -396,7 +396,7 @@ impl Compiler<'_> {
         });
         let step = match &for_.by {
             None => Ok(1),
-            Some(by) => match fold::constant(self.labels, by) {
+            Some(by) => match fold::constant(&self.labels, by) {
                 Some((Const::Int(step), _)) if step != 0 && i16::try_from(step).is_ok() => Ok(step),
                 _ => fail(
                     codes::ST_LITERAL.at(by.span, "the step of FOR is a constant other than 0"),

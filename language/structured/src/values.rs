@@ -51,7 +51,7 @@ impl Compiler<'_> {
                     is_name: true,
                 }));
             }
-            if fold::constant(self.labels, expr).is_some() {
+            if fold::constant(&self.labels, expr).is_some() {
                 return Ok(None);
             }
             return fail(self.unknown(name, expr));
@@ -68,6 +68,13 @@ impl Compiler<'_> {
                 fail(error.help("name an element: whole arrays are not compiled yet"))
             }
             Stored::Constant(_) => Ok(None),
+            Stored::Instance(_) => {
+                let error = codes::ST_TYPE.at(
+                    expr.span,
+                    format!("`{name}` is an instance of a function block"),
+                );
+                fail(error.help(format!("call it: `{name}(…);`")))
+            }
             // Its declaration is reported.
             Stored::Unknown => Err(Vec::new()),
         }
@@ -129,7 +136,7 @@ impl Compiler<'_> {
         let Stored::Device(OperandKind::Device(base, None)) = label.stored else {
             return Err(Vec::new());
         };
-        let at = match fold::constant(self.labels, index) {
+        let at = match fold::constant(&self.labels, index) {
             Some((Const::Int(at), _)) => at,
             Some(_) => return fail(codes::ST_TYPE.at(index.span, "an index is a whole number")),
             None => {
@@ -223,7 +230,7 @@ impl Compiler<'_> {
             return misfit();
         }
         if matches!(op, Op::Div | Op::Mod)
-            && let Some((Const::Int(0), _)) = fold::constant(self.labels, right)
+            && let Some((Const::Int(0), _)) = fold::constant(&self.labels, right)
         {
             let error = codes::ST_ZERO.at(span, "this divides by 0");
             return fail(error.other(right.span, "the constant 0"));
@@ -259,7 +266,7 @@ impl Compiler<'_> {
 
     /// The value of a constant expression.
     pub(crate) fn constant(&self, expr: &Expr) -> Made<Option<Literal>> {
-        Ok(fold::constant(self.labels, expr))
+        Ok(fold::constant(&self.labels, expr))
     }
 
     /// Holds an expression to a type.

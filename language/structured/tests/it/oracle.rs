@@ -66,20 +66,21 @@ fn project(path: &Path, total: &mut Tally) {
     let text = |contents: &[u8]| String::from_utf8_lossy(contents).into_owned();
     let labels = texts().filter(|file| file.path.starts_with("labels/"));
     let globals: String = labels.map(|file| text(&file.contents)).collect();
-    for file in texts().filter(|file| !file.path.contains('/')) {
-        let name = file.path.trim_end_matches(".st");
-        let unit = text(&file.contents);
-        let unit = unit.replace("END_FUNCTION_BLOCK", "END_PROGRAM").replacen(
-            "FUNCTION_BLOCK",
-            "PROGRAM",
-            1,
-        );
-        let known = known(sources, name);
-        let tried = trial(&format!("{globals}{unit}"), model, &known);
+    let units = texts().filter(|file| !file.path.contains('/'));
+    let units: Vec<_> = units
+        .map(|file| (file.path.trim_end_matches(".st"), text(&file.contents)))
+        .collect();
+    let (programs, blocks): (Vec<_>, Vec<_>) = units
+        .into_iter()
+        .partition(|(_, unit)| unit.starts_with("PROGRAM"));
+    let blocks: String = blocks.into_iter().map(|(_, block)| block).collect();
+    for (name, program) in programs {
+        let whole = format!("{globals}{blocks}{program}");
+        let tried = trial(&whole, model, &known(sources, name));
         let tally = compare(&tried, &read, sources);
         println!("{}", tally.line(&format!("{} {name}", path.display())));
         if std::env::var_os("RUNGC_ST_SHOWN").is_some() {
-            show(&tried, &format!("{globals}{unit}"), &read, sources);
+            show(&tried, &whole, &read, sources);
         }
         total.statements += tally.statements;
         total.compiled += tally.compiled;
@@ -92,18 +93,13 @@ fn project(path: &Path, total: &mut Tally) {
 fn known(sources: &Sources, unit: &str) -> Known {
     let devices = sources.devices();
     let local = format!("{unit}.");
-    let name = |name: &str| match name.rsplit_once(&local) {
-        Some((before, label)) if before.is_empty() || before.ends_with('.') => {
-            Some(label.to_uppercase())
-        }
-        _ if !name.contains('.') => Some(name.split('[').next().unwrap_or(name).to_uppercase()),
-        _ => None,
+    let name = |name: &str| {
+        let name = name.strip_prefix(&local).unwrap_or(name);
+        name.split('[').next().unwrap_or(name).to_uppercase()
     };
     let mut known = Known::new();
     for one in devices.iter().filter(|one| one.is_chosen) {
-        if let Some(name) = name(&one.name) {
-            known.entry(name).or_insert(one.device);
-        }
+        known.entry(name(&one.name)).or_insert(one.device);
     }
     known
 }
