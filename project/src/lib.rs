@@ -9,6 +9,7 @@
 pub mod canlink;
 pub mod connections;
 pub mod device;
+mod language;
 pub mod modbus;
 pub mod module;
 mod program;
@@ -26,6 +27,7 @@ use rungc_syntax::{
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+pub use language::Language;
 pub use template::template;
 
 /// The file's name.
@@ -57,6 +59,8 @@ pub struct Project {
     pub compiled: Option<String>,
     /// `[check]`
     pub check: Check,
+    /// Language of reports for people: `[report] lang`.
+    pub language: Option<Language>,
     /// `[build]`
     pub build: Build,
     /// `[test]`

@@ -1,6 +1,7 @@
 //! From TOML to [`Project`], every mistake with its place.
 
 mod canlink;
+mod check;
 mod io;
 mod modbus;
 mod module;
@@ -16,20 +17,20 @@ use modbus::MODBUS;
 use module::MODULE;
 use property::PROPERTY;
 use rungc_models::Plc;
-use rungc_syntax::codes::{self, Code};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Severity, Span, diag};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes, diag};
 use std::ops::{Range, RangeInclusive};
 use std::path::PathBuf;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The tables, and their keys where these are fixed.
-const TABLES: [(&str, &[&str]); 17] = [
+const TABLES: [(&str, &[&str]); 18] = [
     (
         "project",
         &["program", "model", "name", "encoding", "compiled"],
     ),
     ("check", &["allow", "warn", "deny"]),
+    ("report", &["lang"]),
     ("build", &["target", "board", "emit", "output", "access"]),
     ("test", &["files", "engine"]),
     ("tokens", &[]),
@@ -179,6 +180,7 @@ impl Reader {
             match name {
                 "project" => self.project(table, project),
                 "check" => self.check(table, project),
+                "report" => self.report(table, project),
                 "build" => self.build(table, project),
                 "test" => self.test(table, project),
                 "tokens" => self.tokens(table, project),
@@ -378,67 +380,6 @@ impl Reader {
             }
             encoding
         });
-    }
-
-    fn check(&mut self, table: &DeTable<'_>, project: &mut Project) {
-        let mut seen: Vec<(&'static str, &'static str)> = Vec::new();
-        for key in ["allow", "warn", "deny"] {
-            for name in self.list(table, key) {
-                let Some(code) = self.code(&name, key) else {
-                    continue;
-                };
-                if let Some((_, other)) = seen.iter().find(|(id, _)| *id == code.id) {
-                    let message = format!("`{}` is already in `{other}`", name.text);
-                    self.wrong(name.span, message, "");
-                    continue;
-                }
-                seen.push((code.id, key));
-                match key {
-                    "allow" => project.check.allow.push(code.id),
-                    "warn" => project.check.warn.push(code.id),
-                    _ => project.check.deny.push(code.id),
-                }
-            }
-        }
-    }
-
-    /// The code with a name, if its severity is what the key takes.
-    fn code(&mut self, name: &Named, key: &str) -> Option<&'static Code> {
-        let (what, takes): (_, fn(Severity) -> bool) = match key {
-            "allow" => ("warning", |severity| severity != Severity::Error),
-            "warn" => ("error", |severity| severity == Severity::Error),
-            _ => ("warning", |severity| severity == Severity::Warning),
-        };
-        let Some(code) = codes::find(&name.text) else {
-            let names: Vec<_> = codes::all()
-                .into_iter()
-                .filter(|code| takes(code.severity))
-                .flat_map(|code| [code.id, code.name])
-                .collect();
-            let near = diag::did_you_mean(&name.text.to_lowercase(), names);
-            let help = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
-            let message = format!("unknown {what} `{}`", name.text);
-            self.wrong(name.span, message, &help);
-            return None;
-        };
-        if !takes(code.severity) {
-            let is = match code.severity {
-                Severity::Error => "an error",
-                Severity::Warning => "a warning",
-                Severity::Note => "a note",
-            };
-            let message = format!("`{}` is {is}; `{key}` is for {what}s", name.text);
-            self.wrong(name.span, message, "");
-            return None;
-        }
-        if key == "warn"
-            && let Err(why) = code.can_be_eased()
-        {
-            let message = format!("`{}` must remain an error", name.text);
-            self.wrong(name.span, message, why);
-            return None;
-        }
-        Some(code)
     }
 
     fn build(&mut self, table: &DeTable<'_>, project: &mut Project) {

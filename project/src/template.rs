@@ -57,6 +57,10 @@ deny = []
 # Limits of the model to treat as warnings, by the codes of their errors.
 # warn = ["E0105"]
 
+# The language of reports: en or zh. Default: that of the environment.
+# [report]
+# lang = "zh"
+
 [build]
 # The output form of `rungc build`, and its path: c, rust, lib, bin, elf or ir.
 # emit = "c"

@@ -39,6 +39,7 @@ mod diagnostic;
 mod error;
 pub mod explain;
 pub mod index;
+pub mod language;
 pub mod location;
 pub mod mistakes;
 pub mod monitor;
@@ -57,6 +58,7 @@ pub mod xref;
 
 pub use diagnostic::{Diagnostic, Levels, Proposal, Related, Replacement};
 pub use error::Error;
+pub use language::Language;
 pub use location::Location;
 pub use names::Names;
 pub use plc::{Plc, Snapshot, Value};
