@@ -77,7 +77,14 @@ mod tests {
 
     #[test]
     fn names_may_state_regions_and_encodings() {
-        for name in ["zh", "zh-CN", "zh_CN.UTF-8", "zh_CN.GB18030", "zh-Hans-SG", "ZH"] {
+        for name in [
+            "zh",
+            "zh-CN",
+            "zh_CN.UTF-8",
+            "zh_CN.GB18030",
+            "zh-Hans-SG",
+            "ZH",
+        ] {
             assert_eq!(Language::find(name), Some(Chinese), "{name}");
         }
         for name in ["en", "en_GB.UTF-8", "C", "C.UTF-8", "POSIX"] {
@@ -102,7 +109,10 @@ mod tests {
         assert_eq!(of(&[("LANG", "zh_CN.UTF-8")]), Chinese);
         assert_eq!(of(&[("LANG", "zh_CN.UTF-8"), ("LC_ALL", "C")]), English);
         assert_eq!(of(&[("LANG", "zh_CN.UTF-8"), ("LC_ALL", "")]), Chinese);
-        assert_eq!(of(&[("LANG", "C"), ("LC_MESSAGES", "zh_CN.UTF-8")]), Chinese);
+        assert_eq!(
+            of(&[("LANG", "C"), ("LC_MESSAGES", "zh_CN.UTF-8")]),
+            Chinese
+        );
         assert_eq!(of(&[("LANG", "de_DE.UTF-8")]), English);
     }
 }

@@ -5,6 +5,7 @@ mod proposals;
 
 pub use proposals::unknown;
 
+use crate::language::{self, Language, message};
 use rungc_models::plc_errors::{self, PlcError, of_check};
 use rungc_models::runs::is_special;
 use rungc_models::{Model, ModelId, ModelSet, Plc, VARIANTS, Variant};
@@ -13,8 +14,9 @@ use rungc_syntax::codes::{self, Code};
 use std::fmt::Write;
 
 /// The page of a topic: a code of diagnostics or its name, an error code of the PLC, an instruction, a special device,
-/// a model or a variant of one. With a PLC, what it has of that; else what all models have.
-pub fn page(topic: &str, plc: Option<Plc>) -> Option<String> {
+/// a model or a variant of one. With a PLC, what it has of that; else what all models have. Only codes have pages in
+/// other languages than English.
+pub fn page(topic: &str, plc: Option<Plc>, language: Language) -> Option<String> {
     let lower = topic.trim().to_lowercase();
     let topic = topic.trim().to_uppercase();
     let instruction = || match plc {
@@ -22,7 +24,7 @@ pub fn page(topic: &str, plc: Option<Plc>) -> Option<String> {
         None => None,
     };
     codes::find(&lower)
-        .map(|code| code_page(code, plc))
+        .map(|code| code_page(code, plc, language))
         .or_else(|| plc_error_page(topic.parse().ok()?, plc.map(|plc| plc.model)))
         .or_else(|| special_page(&topic, plc?))
         .or_else(|| Variant::find(&topic).map(variant_page))
@@ -31,17 +33,19 @@ pub fn page(topic: &str, plc: Option<Plc>) -> Option<String> {
         .or_else(|| rungc_catalogue::explain(&topic))
 }
 
-fn code_page(code: &Code, plc: Option<Plc>) -> String {
-    let mut page = format!(
-        "{} ({}): {}\n\n{}\n",
-        code.id, code.name, code.title, code.text
+fn code_page(code: &'static Code, plc: Option<Plc>, language: Language) -> String {
+    let (title, text) = (
+        language::title(language, code),
+        language::text(language, code),
     );
-    let number = code.plc_error.and_then(|number| match plc {
-        Some(plc) => of_check(code.id, number, Model::get(plc.model)).map(|on| on.to_string()),
-        None => Some(plc_errors::check_in_words(code.id, number)),
-    });
-    if let Some(number) = number {
-        let _ = write!(page, "\nThe PLC reports this as error {number}.\n");
+    let arguments = [
+        ("code", code.id.into()),
+        ("name", code.name.into()),
+        ("title", title.as_ref().into()),
+    ];
+    let mut page = format!("{}\n\n{text}\n", message(language, "page", &arguments));
+    if let Some(number) = number_of_plc(code, plc, language) {
+        let _ = write!(page, "\n{number}\n");
     }
     let indented = |il: &str| {
         il.trim()
@@ -49,16 +53,37 @@ fn code_page(code: &Code, plc: Option<Plc>) -> String {
             .map(|line| format!("    {}\n", line.trim_end()))
             .collect::<String>()
     };
-    for (title, il) in [("Wrong", code.wrong), ("Right", code.right)] {
+    for (id, il) in [("wrong", code.wrong), ("right", code.right)] {
         if !il.is_empty() {
-            let model = code
-                .model
-                .map(|model| format!(" ({model})"))
-                .unwrap_or_default();
-            let _ = write!(page, "\n{title}{model}:\n\n{}", indented(il));
+            let title = message(language, id, &[]);
+            let (id, model) = match code.model {
+                Some(model) => ("example-of-model", model),
+                None => ("example", ""),
+            };
+            let arguments = [("title", (&title).into()), ("model", model.into())];
+            let heading = message(language, id, &arguments);
+            let _ = write!(page, "\n{heading}\n\n{}", indented(il));
         }
     }
     page
+}
+
+/// Sentence with the number under which a PLC, or PLCs of two families, report what a code is about.
+fn number_of_plc(code: &Code, plc: Option<Plc>, language: Language) -> Option<String> {
+    let stated = code.plc_error?;
+    let on = |id| of_check(code.id, stated, Model::get(id));
+    let (id, number, other) = match plc {
+        Some(plc) => ("plc-error", on(plc.model)?, None),
+        None => match (on(ModelId::H2u), on(ModelId::Fx3u)) {
+            (Some(here), Some(there)) if here != there => ("plc-errors", here, Some(there)),
+            (None, Some(there)) => ("plc-error-of-fx", there, None),
+            (Some(_), _) | (None, None) => ("plc-error", stated, None),
+        },
+    };
+    let other = other.map(|number| number.to_string()).unwrap_or_default();
+    let number = number.to_string();
+    let arguments = [("number", (&number).into()), ("other", (&other).into())];
+    Some(message(language, id, &arguments))
 }
 
 /// The page of an error code of the PLC: its meaning on one or all models, and which diagnostics prevent it.

@@ -141,3 +141,5 @@ fn translated(
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests;

@@ -2,6 +2,7 @@
 
 use crate::{Options, Text};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
+use rungc::Language;
 use rungc_models::{Model, ModelId, Plc};
 use rungc_syntax::codes;
 use serde_json::{Value, json};
@@ -185,7 +186,7 @@ pub(crate) fn plc(name: &str) -> Result<Plc, String> {
 /// Proposals.
 pub(crate) fn page(topic: &str, model: Option<Plc>) -> Result<String, String> {
     let of_function = || rungc_functions::page::of(&topic.trim().to_lowercase());
-    let page = rungc::explain::page(topic, model).or_else(of_function);
+    let page = rungc::explain::page(topic, model, Language::English).or_else(of_function);
     page.ok_or_else(|| {
         let functions: Vec<&str> = rungc_functions::library::all()
             .map(|function| function.name)

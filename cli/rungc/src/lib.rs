@@ -6,6 +6,7 @@
 mod args;
 mod commands;
 mod crash;
+mod language;
 mod output;
 mod progress;
 mod report;
@@ -35,9 +36,13 @@ pub fn main() -> ExitCode {
     let matches = matches.unwrap_or_else(|error| reject(&advised(error)));
     let cli = Cli::from_arg_matches(&matches)
         .unwrap_or_else(|error| reject(&error.format(&mut Cli::command())));
-    let cx = context(&cli);
     let threads = Threads::stated().map(drop).map_err(Failure::from);
-    let checked = threads.and_then(|()| output::check_arguments(&matches));
+    let (cx, language) = match language::chosen(cli.lang) {
+        Ok(language) => (context(&cli, language), Ok(())),
+        Err(unknown) => (context(&cli, language::Chosen::default()), Err(unknown)),
+    };
+    let checked = language.map_err(Failure::from).and(threads);
+    let checked = checked.and_then(|()| output::check_arguments(&matches));
     let result = checked.and_then(|()| match &cli.command {
         Command::Check(args) => commands::check::run(args, cx),
         Command::Build(args) => commands::build::run(args, cx),
@@ -65,8 +70,8 @@ pub fn main() -> ExitCode {
         Command::Stats(args) => commands::stats::run(args, cx),
         Command::Fmt(args) => commands::fmt::run(args, cx),
         Command::Diff(args) => commands::diff::run(args, cx),
-        Command::Explain(args) => commands::explain::run(args),
-        Command::Book(args) => commands::book::run(args),
+        Command::Explain(args) => commands::explain::run(args, cx),
+        Command::Book(args) => commands::book::run(args, cx),
         Command::Man(args) => man(args.command.as_deref()),
         Command::Completions { shell } => {
             let mut script = Vec::new();
@@ -94,10 +99,11 @@ pub fn main() -> ExitCode {
 }
 
 /// The context of the command.
-fn context(cli: &Cli) -> Context {
+fn context(cli: &Cli, language: language::Chosen) -> Context {
     let is_printed = |output: &Option<OutputPath>| output::file(output).is_none();
     Context {
         color: color(cli.color),
+        language,
         stdout_in_use: match &cli.command {
             Command::Build(args) => {
                 args.plan.emit == Some(Emit::Ir) && is_printed(&args.plan.output)

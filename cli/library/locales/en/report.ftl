@@ -78,3 +78,15 @@ example = { $title }:
 example-of-model = { $title } ({ $model }):
 
 page = { $code } ({ $name }): { $title }
+
+colon = :{ " " }
+
+total = { "       " }Total { $programs ->
+        [one] { $programs } program
+       *[other] { $programs } programs
+    }: { $counts }
+
+total-but = { "       " }Total { $programs ->
+        [one] { $programs } program
+       *[other] { $programs } programs
+    }: { $counts }, { $unusable } not processed

@@ -109,3 +109,18 @@ example-of-model = { $title }（{ $model }）：
 
 # { $code } ({ $name }): { $title }
 page = { $code }（{ $name }）：{ $title }
+
+# :{ " " }
+colon = ：
+
+# { "       " }Total { $programs ->
+#     [one] { $programs } program
+#    *[other] { $programs } programs
+# }: { $counts }
+total = { "        " }合计 { $programs } 个程序：{ $counts }
+
+# { "       " }Total { $programs ->
+#     [one] { $programs } program
+#    *[other] { $programs } programs
+# }: { $counts }, { $unusable } not processed
+total-but = { "        " }合计 { $programs } 个程序：{ $counts }，{ $unusable } 个未处理

@@ -1,5 +1,6 @@
 //! Values of arguments: how each is written, and what is said of one that is not.
 
+use rungc::Language;
 use rungc_firmware::target::{self, Target};
 use rungc_frontend::Encoding;
 use rungc_models::{ModelId, Plc};
@@ -52,6 +53,11 @@ pub(super) fn omissible(name: &str) -> Result<&'static str, String> {
         Severity::Note | Severity::Warning => Ok(code.id),
         Severity::Error => Err("errors cannot be suppressed".to_string()),
     }
+}
+
+/// A language of reports, by its name.
+pub(super) fn language(name: &str) -> Result<Language, String> {
+    Language::named(name)
 }
 
 pub(super) fn networks(text: &str) -> Result<RangeInclusive<usize>, String> {

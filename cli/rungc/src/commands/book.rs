@@ -1,6 +1,6 @@
 //! `rungc book`.
 
-use super::{Failure, Outcome, Result, explain, print_text};
+use super::{Context, Failure, Outcome, Result, explain, print_text};
 use crate::args::{BookArgs, ExplainArgs};
 use rungc_syntax::diag;
 use std::fmt::Write;
@@ -20,7 +20,7 @@ pub struct Page {
 pub const PAGES: &[Page] = include!(concat!(env!("OUT_DIR"), "/pages.rs"));
 
 /// Prints a page of the book, or lists all.
-pub fn run(args: &BookArgs) -> Result {
+pub fn run(args: &BookArgs, cx: Context) -> Result {
     let Some(name) = &args.page else {
         print_text(&contents())?;
         return Ok(Outcome::Success);
@@ -31,10 +31,11 @@ pub fn run(args: &BookArgs) -> Result {
     }
     let topic = plain(name);
     let topic = topic.rsplit('/').next().unwrap_or_default();
-    let explained = explain::page(&ExplainArgs {
+    let topic = ExplainArgs {
         topic: topic.to_string(),
         model: None,
-    });
+    };
+    let explained = explain::page(&topic, cx.language.language());
     let text = explained.ok_or_else(|| {
         let near = diag::did_you_mean(&plain(name), PAGES.iter().map(|page| page.name));
         let hint = near.map_or_else(

@@ -10,6 +10,7 @@ use super::{
 };
 use crate::args::{CheckArgs, Properties};
 use crate::report::Reporter;
+use rungc::language::message;
 use rungc_frontend::{Read, ReadError};
 use rungc_lower::compile::{self, Compiled};
 use rungc_models::Model;
@@ -117,10 +118,8 @@ impl Checked {
         check_properties(subject, &read.program, reporter, cx)?;
         let mut findings = findings(subject, &read, &compiled);
         if self.found.open > 0 {
-            let open = counted(self.found.open, "question");
-            cx.note(&format!(
-                "        Open {open} of --deep: not decided in time"
-            ));
+            let open = [("count", self.found.open.into())];
+            cx.note(&message(findings.language(cx), "open", &open));
         }
         findings.add(self.found.diagnostics, &subject.reporting);
         if (args.draw || args.deep) && reporter.is_for_people() {
@@ -132,18 +131,21 @@ impl Checked {
         for port in &compiled.ports {
             cx.detail(|| ports::line(port));
         }
-        let name = findings.name(reporter.many());
+        let language = findings.language(cx);
+        let (name, model) = (findings.name(reporter.many()), compiled.model.name);
         let outcome = conclude(&findings, reporter, cx, || {
-            format!(
-                "    Checked {name} ({}, {}, {}) in {} ms",
-                compiled.model.name.to_uppercase(),
-                counted(compiled.steps as usize, "step"),
-                counted(devices(&read.program), "device"),
-                self.elapsed.as_millis()
-            )
+            let (model, elapsed) = (model.to_uppercase(), self.elapsed.as_millis().to_string());
+            let arguments = [
+                ("name", (&name).into()),
+                ("model", (&model).into()),
+                ("steps", (compiled.steps as usize).into()),
+                ("devices", devices(&read.program).into()),
+                ("elapsed", (&elapsed).into()),
+            ];
+            message(language, "checked", &arguments)
         })?;
         if !self.found.assumptions.is_empty() {
-            cx.note("      Proved for this model under these assumptions:");
+            cx.note(&message(language, "proved", &[]));
             for line in self.found.assumptions {
                 cx.note(&format!("             - {line}"));
             }

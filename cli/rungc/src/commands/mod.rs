@@ -39,9 +39,11 @@ pub mod why;
 pub mod xref;
 
 use crate::args::Format;
+use crate::language::Chosen;
 use crate::output::write_file;
 use crate::report::{Findings, Reporter, Totals, visible};
-use rungc::other_model;
+use rungc::language::message;
+use rungc::{Language, language, other_model};
 use rungc_frontend::{Read, ReadError};
 use rungc_lower::compile::Compiled;
 pub use rungc_syntax::diag::{counted, grouped};
@@ -123,6 +125,8 @@ pub type Result = std::result::Result<Outcome, Failure>;
 pub struct Context {
     /// True if standard error is coloured.
     pub color: bool,
+    /// Language of reports for people.
+    pub language: Chosen,
     /// True if standard output carries the command's result, so that a report for tools goes to standard error.
     pub stdout_in_use: bool,
     /// Verbosity of messages.
@@ -237,11 +241,15 @@ fn unread(error: &ReadError, subject: &Subject, reporter: &mut Reporter) -> io::
         | ReadError::NoProject { .. } => &codes::UNKNOWN_FORMAT,
         ReadError::Io { .. } | ReadError::TooLarge { .. } => &codes::UNREADABLE_FILE,
     };
-    let id = code.id;
     if subject.reporting.format == Format::Human {
-        eprint_line(&format!(
-            "rungc: error[{id}]: {error}\n       for more, run `rungc explain {id}`"
-        ));
+        let language = reporter.language(&subject.reporting);
+        let (error, title) = (error.to_string(), language::title(language, code));
+        let arguments = [
+            ("code", code.id.into()),
+            ("title", title.as_ref().into()),
+            ("message", (&error).into()),
+        ];
+        eprint_line(&message(language, "unread", &arguments));
     }
     let why = code.at(Span::default(), error.to_string());
     reporter.add(&Findings::unread(&subject.file, why))?;
@@ -342,25 +350,39 @@ pub fn conclude(
     reporter.add(findings)?;
     if reporter.is_for_people() {
         let name = findings.name(reporter.many());
+        let language = findings.language(cx);
+        let counts = counts(&findings.totals(), language);
         cx.note(&match findings.failed() {
-            true => format!("      Failed {name}: {}", counts(&findings.totals())),
-            false => format!("{}: {}", done(), counts(&findings.totals())),
+            true => {
+                let arguments = [("name", (&name).into()), ("counts", (&counts).into())];
+                message(language, "failed", &arguments)
+            }
+            false => {
+                let done = done();
+                let arguments = [("done", (&done).into()), ("counts", (&counts).into())];
+                message(language, "closing", &arguments)
+            }
         });
     }
     Ok(Outcome::of(findings))
 }
 
 /// `0 errors, 1 warning`, and the notes if there are any.
-fn counts(totals: &Totals) -> String {
-    let counts = format!(
-        "{}, {}",
-        counted(totals.errors, "error"),
-        counted(totals.warnings, "warning")
-    );
-    match totals.notes {
-        0 => counts,
-        notes => format!("{counts}, {}", counted(notes, "note")),
+fn counts(totals: &Totals, language: Language) -> String {
+    let mut counts = vec![("errors", totals.errors), ("warnings", totals.warnings)];
+    if totals.notes > 0 {
+        counts.push(("notes", totals.notes));
     }
+    listed_counts(&counts, language)
+}
+
+/// Numbers with the messages that name what they count, as a list.
+pub fn listed_counts(counts: &[(&str, usize)], language: Language) -> String {
+    let counts = counts
+        .iter()
+        .map(|&(id, count)| message(language, id, &[("count", count.into())]));
+    let counts: Vec<_> = counts.collect();
+    counts.join(&message(language, "comma", &[]))
 }
 
 /// Returns an error for a file that `what`, a file in TOML, cannot name: its texts are UTF-8.

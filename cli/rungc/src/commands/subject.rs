@@ -1,8 +1,9 @@
 //! The programs that a command works on: where they are, and which settings hold for each.
 
-use super::{Context, Failure, Outcome, Result, counted, counts, eprint_line, interruption};
+use super::{Context, Failure, Outcome, Result, counts, eprint_line, interruption};
 use crate::args::{Format, Input, Inputs, Reading, Reporting};
 use crate::report::{Findings, Reporter, breaks_lines, visible_line};
+use rungc::language::message;
 use rungc::settings;
 use rungc_firmware::board::BoardError;
 use rungc_frontend::ReadOptions;
@@ -120,6 +121,7 @@ impl Projects<'_> {
         let mut reporting = self.reading.reporting.clone();
         if let Some(project) = &project {
             reporting.rules = settings::rules(project);
+            reporting.lang = project.language;
         }
         let options = self.reading.options();
         let options = match &project {
@@ -373,13 +375,16 @@ pub fn each_in<P: Send>(
     }
     printed?;
     if many && reporting.format == Format::Human {
-        let programs = counted(subjects.len(), "program");
-        let unusable = match unusable {
-            0 => String::new(),
-            n => format!(", {n} not processed"),
-        };
-        let counts = counts(&totals);
-        cx.note(&format!("       Total {programs}: {counts}{unusable}"));
+        let settings = subjects.first().and_then(|subject| subject.reporting.lang);
+        let language = cx.language.or(settings);
+        let counts = counts(&totals, language);
+        let id = if unusable > 0 { "total-but" } else { "total" };
+        let arguments = [
+            ("programs", subjects.len().into()),
+            ("counts", (&counts).into()),
+            ("unusable", unusable.into()),
+        ];
+        cx.note(&message(language, id, &arguments));
     }
     Ok(worst)
 }

@@ -10,8 +10,11 @@ use super::Findings;
 use super::visible::{visible, visible_line};
 use super::window::Window;
 use ariadne::{Color, Config, Label, Report, ReportKind, Source};
+use rungc::Language;
+use rungc::language::{self, message};
 use rungc::location::instr_at;
-use rungc_syntax::{Diagnostic, Severity, Span};
+use rungc_syntax::{Diagnostic, Severity, Span, codes};
+use std::borrow::Cow;
 use std::io::{self, Write};
 use std::ops::Range;
 
@@ -21,31 +24,44 @@ const MAX_PLACES: usize = 6;
 /// Text between the marked lines in the drawn source: an empty line, which the library draws as a gap.
 const GAP: &str = "\n\n";
 
+/// Stands before texts in a drawing, so that the words of the library before them can be found. Sources and messages
+/// have it written out.
+const MARK: char = '\u{1}';
+
 /// The line and column that the library adds to the head of a drawing.
 const FIRST: &str = ":1:1";
 
-/// Prints at most `limit` diagnostics (0: all) about a program of this name.
-pub fn print(
-    findings: &Findings,
-    name: &str,
-    limit: usize,
-    color: bool,
-    out: &mut dyn Write,
-) -> io::Result<()> {
+/// How diagnostics are printed.
+#[derive(Clone, Copy, Debug)]
+pub struct Style {
+    /// Maximum number of diagnostics; 0: all.
+    pub limit: usize,
+    /// With colours.
+    pub color: bool,
+    /// Language of titles and of the words of a frame.
+    pub language: Language,
+}
+
+/// Prints diagnostics about a program of this name.
+pub fn print(findings: &Findings, name: &str, style: Style, out: &mut dyn Write) -> io::Result<()> {
+    let Style {
+        limit, language, ..
+    } = style;
     if findings.program.is_none() {
         return Ok(());
     }
     let all = findings.diagnostics.len();
     let shown = if limit == 0 { all } else { limit };
     for (i, diagnostic) in findings.diagnostics.iter().take(shown).enumerate() {
-        writeln!(out, "{}", draw(findings, name, diagnostic, color)?)?;
+        writeln!(out, "{}", draw(findings, name, diagnostic, style)?)?;
         if let Some(network) = findings.drawn.get(i).filter(|drawn| !drawn.is_empty()) {
             writeln!(out, "{}", visible(network))?;
         }
     }
     let hidden = all.saturating_sub(shown);
     if hidden > 0 {
-        writeln!(out, "… and {hidden} more (--limit 0 prints all)\n")?;
+        let more = message(language, "more-findings", &[("count", hidden.into())]);
+        writeln!(out, "{more}\n")?;
     }
     Ok(())
 }
@@ -65,13 +81,21 @@ struct Row<'a> {
     marks: Vec<&'a Mark<'a>>,
 }
 
-fn draw(findings: &Findings, name: &str, d: &Diagnostic, color: bool) -> io::Result<String> {
+fn draw(findings: &Findings, name: &str, d: &Diagnostic, style: Style) -> io::Result<String> {
+    let Style {
+        color, language, ..
+    } = style;
     let main = match d.severity {
         Severity::Error => Color::Red,
         Severity::Warning => Color::Yellow,
         Severity::Note => Color::Cyan,
     };
-    let label = if d.label.is_empty() { "here" } else { &d.label };
+    let here = message(language, "here", &[]);
+    let label = if d.label.is_empty() {
+        here.as_str()
+    } else {
+        &d.label
+    };
     let mut marks = vec![Mark {
         span: d.span,
         text: label,
@@ -87,38 +111,93 @@ fn draw(findings: &Findings, name: &str, d: &Diagnostic, color: bool) -> io::Res
     let (source, labels) = excerpt(&rows);
     let head = findings.location(d.span).unwrap_or_default().headed(name);
     let head = visible_line(&head);
-    let heading = format!("{}[{}]", d.severity.name(), d.code);
+    let heading = format!("{}[{}]", severity(d.severity, language), d.code);
+    let detail = visible_line(&d.message);
+    let title = title(d, language);
+    let marked = |text: &str| match &title {
+        Some(_) => format!("{MARK}{text}"),
+        None => text.to_owned(),
+    };
     let mut report = Report::build(ReportKind::Custom(&heading, main), (&*head, 0..0))
         .with_config(Config::default().with_color(color))
-        .with_message(visible_line(&d.message));
+        .with_message(marked(title.as_deref().unwrap_or(&detail)));
     for (range, mark) in labels {
         let label = Label::new((&*head, range)).with_message(visible_line(mark.text));
         report.add_label(label.with_color(mark.color));
     }
     if let Some(help) = &d.help {
-        report.add_help(visible_line(help));
+        report.add_help(marked(&visible_line(help)));
     }
     let more = d.others.len().saturating_sub(MAX_PLACES);
     if more > 0 {
-        report.add_note(format!(
-            "… and {more} more locations (`--format json` lists all)"
-        ));
+        let more = message(language, "more-places", &[("count", more.into())]);
+        report.add_note(marked(&more));
     }
-    let plc = d
-        .plc_error
-        .map(|code| format!("the PLC reports this as error {code}; "))
-        .unwrap_or_default();
-    report.add_note(format!("{plc}for more, run `rungc explain {}`", d.code));
+    let number = d.plc_error.map(|number| number.to_string());
+    let id = if number.is_some() {
+        "more-of-plc"
+    } else {
+        "more"
+    };
+    let arguments = [
+        ("code", d.code.into()),
+        ("number", number.as_deref().unwrap_or_default().into()),
+    ];
+    report.add_note(marked(&message(language, id, &arguments)));
     let mut drawn = Vec::new();
     let source = Source::from(source);
     report.finish().write((&*head, &source), &mut drawn)?;
     let drawn = String::from_utf8_lossy(&drawn);
     let drawn = numbered(&drawn, &rows);
+    let drawn = match title {
+        Some(_) => translated(&drawn, &detail, language),
+        None => drawn,
+    };
     Ok(match color {
         true => drawn,
         // The library colours the heading even where colours are off.
         false => anstream::adapter::strip_str(&drawn).to_string(),
     })
+}
+
+/// Severity in a language.
+fn severity(severity: Severity, language: Language) -> String {
+    let id = match severity {
+        Severity::Error => "severity-error",
+        Severity::Warning => "severity-warning",
+        Severity::Note => "severity-note",
+    };
+    message(language, id, &[])
+}
+
+/// Title of a diagnostic, if the language is not that of its message.
+fn title(diagnostic: &Diagnostic, language: Language) -> Option<Cow<'static, str>> {
+    let code = codes::find(diagnostic.code).filter(|_| language != Language::English)?;
+    Some(language::title(language, code))
+}
+
+/// A drawing whose texts begin with a [`MARK`], with the words of a language in place of the library's, and with the
+/// message of the diagnostic below the title.
+fn translated(drawn: &str, detail: &str, language: Language) -> String {
+    let [help, note, colon] = ["help", "note", "colon"].map(|id| message(language, id, &[]));
+    let mut text = String::with_capacity(drawn.len() + detail.len());
+    for (i, line) in drawn.lines().enumerate() {
+        if i == 1 {
+            let indent = line.len() - line.trim_start().len();
+            text.push_str(&format!("{}{detail}\n", " ".repeat(indent)));
+        }
+        match line.split_once(MARK) {
+            Some((word, rest)) => {
+                let word = word.replace("Help", &help).replace("Note", &note);
+                let word = word.replacen(':', &colon, 1);
+                text.push_str(word.trim_end());
+                text.push_str(rest);
+            }
+            None => text.push_str(line),
+        }
+        text.push('\n');
+    }
+    text
 }
 
 /// The parts of lines that hold the marks, which are in the order of their places.

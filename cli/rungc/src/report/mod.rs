@@ -11,9 +11,11 @@ mod window;
 pub use visible::{breaks_lines, to_json, visible, visible_line};
 
 use crate::args::{Format, Reporting};
-use crate::commands::{Context, Verbosity, counted, print_bytes};
-use rungc::Levels;
+use crate::commands::{Context, Verbosity, listed_counts, print_bytes};
+use crate::language::Chosen;
+use rungc::language::message;
 use rungc::location::{Location, named};
+use rungc::{Language, Levels};
 use rungc_analysis::check::ports::Setup;
 use rungc_evidence::Evidence;
 use rungc_firmware::report::Report as Takes;
@@ -42,6 +44,8 @@ pub struct Findings<'a> {
     pub drawn: Vec<String>,
     /// Evidence that verdicts rest on, if properties were decided.
     pub verification: Option<Evidence>,
+    /// Language of the settings that hold for the program.
+    pub settings_language: Option<Language>,
 }
 
 /// Model and length of a program.
@@ -93,6 +97,7 @@ impl<'a> Findings<'a> {
             takes: None,
             drawn: Vec::new(),
             verification: None,
+            settings_language: reporting.lang,
         }
     }
 
@@ -119,6 +124,7 @@ impl<'a> Findings<'a> {
             takes: None,
             drawn: Vec::new(),
             verification: None,
+            settings_language: None,
         }
     }
 
@@ -128,6 +134,11 @@ impl<'a> Findings<'a> {
             Some(program) if !many || self.path == Path::new("-") => program.source.name.clone(),
             _ => self.path.display().to_string(),
         }
+    }
+
+    /// Language of a report of them for people.
+    pub fn language(&self, cx: Context) -> Language {
+        cx.language.or(self.settings_language)
     }
 
     /// Location of a span; `None` if nothing could be read.
@@ -177,6 +188,7 @@ impl Totals {
 pub struct Reporter<'a> {
     reporting: &'a Reporting,
     color: bool,
+    language: Chosen,
     stdout_in_use: bool,
     /// True if the command line may name several programs, so that the document is a list.
     many: bool,
@@ -205,6 +217,7 @@ impl<'a> Reporter<'a> {
         Reporter {
             reporting,
             color: cx.color,
+            language: cx.language,
             stdout_in_use: cx.stdout_in_use,
             many,
             totals: Totals::default(),
@@ -223,6 +236,11 @@ impl<'a> Reporter<'a> {
     /// Leaves standard output to what the command makes.
     pub fn leave_output(&mut self) {
         self.stdout_in_use = true;
+    }
+
+    /// Language of a report for people about a program with these settings.
+    pub fn language(&self, reporting: &Reporting) -> Language {
+        self.language.or(reporting.lang)
     }
 
     /// Returns true if the report is human-readable.
@@ -246,15 +264,19 @@ impl<'a> Reporter<'a> {
         match self.reporting.format {
             Format::Human => {
                 let name = findings.name(self.many);
-                let limit = self.reporting.limit;
+                let style = human::Style {
+                    limit: self.reporting.limit,
+                    color: self.color,
+                    language: self.language.or(findings.settings_language),
+                };
                 let mut out = io::stderr().lock();
                 // A closed output does not stop the command.
-                return human::print(findings, &name, limit, self.color, &mut out).or_else(
-                    |error| match error.kind() {
-                        io::ErrorKind::BrokenPipe => Ok(()),
-                        _ => Err(error),
-                    },
-                );
+                return human::print(findings, &name, style, &mut out).or_else(|error| match error
+                    .kind()
+                {
+                    io::ErrorKind::BrokenPipe => Ok(()),
+                    _ => Err(error),
+                });
             }
             Format::Json => json::add(&mut self.json, json::file(findings), self.many),
             Format::Sarif => self.sarif.add(findings, self.many),
@@ -277,12 +299,22 @@ impl<'a> Reporter<'a> {
         }
         let totals = findings.totals();
         if totals.warnings + totals.notes > 0 {
-            let counts = [(totals.warnings, "warning"), (totals.notes, "note")];
-            let counts = counts.into_iter().filter(|(count, _)| *count > 0);
-            let counts: Vec<_> = counts.map(|(n, what)| counted(n, what)).collect();
-            let list = check.map_or_else(String::new, |check| format!(" (`{check}` lists them)"));
+            let mut counts = vec![("warnings", totals.warnings), ("notes", totals.notes)];
+            counts.retain(|(_, count)| *count > 0);
+            let language = findings.language(cx);
+            let counts = listed_counts(&counts, language);
             let name = findings.name(self.many);
-            cx.note(&format!("rungc: {name}: {}{list}", counts.join(", ")));
+            let id = if check.is_some() {
+                "found-more"
+            } else {
+                "found"
+            };
+            let arguments = [
+                ("name", (&name).into()),
+                ("counts", (&counts).into()),
+                ("command", check.unwrap_or_default().into()),
+            ];
+            cx.note(&message(language, id, &arguments));
         }
         self.totals.add(totals);
         Ok(())
