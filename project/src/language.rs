@@ -55,10 +55,13 @@ impl Language {
     /// # Errors
     /// Message that lists the languages.
     pub fn named(name: &str) -> Result<Self, String> {
-        Language::find(name).ok_or_else(|| {
-            let known = Language::ALL.map(|language| format!("`{}`", language.name()));
-            format!("unknown language; these are known: {}", known.join(", "))
-        })
+        Language::find(name).ok_or_else(|| format!("unknown language; {}", Language::known()))
+    }
+
+    /// What a message about an unknown name says of the known ones.
+    pub(crate) fn known() -> String {
+        let known = Language::ALL.map(|language| format!("`{}`", language.name()));
+        format!("these are known: {}", known.join(", "))
     }
 
     /// The language of the environment, whose variables are looked up with `variable`; English where it names another

@@ -72,9 +72,10 @@ impl Reader {
         let Some(name) = self.get(table, "lang") else {
             return;
         };
-        match Language::named(&name.text) {
-            Ok(language) => project.language = Some(language),
-            Err(unknown) => self.wrong(name.span, unknown, ""),
+        project.language = Language::find(&name.text);
+        if project.language.is_none() {
+            let message = format!("unknown language `{}`", name.text);
+            self.wrong(name.span, message, &Language::known());
         }
     }
 }

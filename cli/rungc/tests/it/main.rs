@@ -35,6 +35,7 @@ mod hostile;
 mod images;
 #[cfg(unix)]
 mod interrupted;
+mod languages;
 mod large;
 mod learn;
 mod library;
