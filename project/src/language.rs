@@ -1,4 +1,4 @@
-//! Languages of reports for people.
+//! Languages of human-readable reports.
 
 /// A language that reports can be in.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
@@ -58,7 +58,7 @@ impl Language {
         Language::find(name).ok_or_else(|| format!("unknown language; {}", Language::known()))
     }
 
-    /// What a message about an unknown name says of the known ones.
+    /// List of the known names, for the message about an unknown one.
     pub(crate) fn known() -> String {
         let known = Language::ALL.map(|language| format!("`{}`", language.name()));
         format!("these are known: {}", known.join(", "))

@@ -59,7 +59,7 @@ pub struct Project {
     pub compiled: Option<String>,
     /// `[check]`
     pub check: Check,
-    /// Language of reports for people: `[report] lang`.
+    /// Language of human-readable reports: `[report] lang`.
     pub language: Option<Language>,
     /// `[build]`
     pub build: Build,

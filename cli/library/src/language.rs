@@ -1,8 +1,8 @@
-//! Reports for people in their language.
+//! Human-readable reports in the language of the user.
 //!
 //! A language has a folder in `locales/`, with files in the format of [Project Fluent](https://projectfluent.org). A
 //! message in `codes/` has the identifier of a diagnostic code: its value is the title, and its attribute `text` the
-//! explanation. `report.ftl` has what stands around diagnostics. Above each translation, a comment repeats the English
+//! explanation. `report.ftl` has what surrounds diagnostics. Above each translation, a comment repeats the English
 //! text that it is made from, so that a test finds those that no longer fit.
 
 use fluent_bundle::concurrent::FluentBundle;

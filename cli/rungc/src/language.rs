@@ -1,4 +1,4 @@
-//! The language of reports for people.
+//! The language of human-readable reports.
 
 use rungc::Language;
 

@@ -40,14 +40,14 @@ fn entries(file: &str) -> Vec<Entry> {
         .collect()
 }
 
-/// What stands in backquotes, sorted.
+/// Texts in backquotes, sorted.
 fn quoted(text: &str) -> Vec<&str> {
     let mut quoted: Vec<_> = text.split('`').skip(1).step_by(2).collect();
     quoted.sort_unstable();
     quoted
 }
 
-/// A text without what stands in backquotes.
+/// A text without those in backquotes.
 fn prose(text: &str) -> String {
     text.split('`').step_by(2).collect::<Vec<_>>().join(" ")
 }

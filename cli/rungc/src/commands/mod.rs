@@ -125,7 +125,7 @@ pub type Result = std::result::Result<Outcome, Failure>;
 pub struct Context {
     /// True if standard error is coloured.
     pub color: bool,
-    /// Language of reports for people.
+    /// Language of human-readable reports.
     pub language: Chosen,
     /// True if standard output carries the command's result, so that a report for tools goes to standard error.
     pub stdout_in_use: bool,
@@ -409,8 +409,8 @@ pub fn file_name(stem: &str, module: &str) -> String {
     if stem.is_ascii() {
         return module.to_string();
     }
-    let refused = |c: char| text::acts(c) || "/\\:*?\"<>|".contains(c);
-    stem.trim_start_matches('.').trim().replace(refused, "_")
+    let rejected = |c: char| text::acts(c) || "/\\:*?\"<>|".contains(c);
+    stem.trim_start_matches('.').trim().replace(rejected, "_")
 }
 
 /// The name of a file without folder and extension; of a project folder's `MAIN.wpg` or of `MAIN.csv` the project's.

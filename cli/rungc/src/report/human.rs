@@ -31,7 +31,7 @@ const MARK: char = '\u{1}';
 /// The line and column that the library adds to the head of a drawing.
 const FIRST: &str = ":1:1";
 
-/// How diagnostics are printed.
+/// Presentation of diagnostics.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
     /// Maximum number of diagnostics; 0: all.

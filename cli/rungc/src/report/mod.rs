@@ -136,7 +136,7 @@ impl<'a> Findings<'a> {
         }
     }
 
-    /// Language of a report of them for people.
+    /// Language of a human-readable report of them.
     pub fn language(&self, cx: Context) -> Language {
         cx.language.or(self.settings_language)
     }
@@ -238,7 +238,7 @@ impl<'a> Reporter<'a> {
         self.stdout_in_use = true;
     }
 
-    /// Language of a report for people about a program with these settings.
+    /// Language of a human-readable report about a program with these settings.
     pub fn language(&self, reporting: &Reporting) -> Language {
         self.language.or(reporting.lang)
     }

@@ -101,9 +101,9 @@ fn the_environment_chooses_the_language() {
     check_in(1, &[("RUNGC_LANG", "zh"), ("LC_ALL", "C")], &[]);
     check_in(0, &[("LANG", "zh_CN.UTF-8")], &["--lang", "en"]);
     let folder = folder(&[("bad.il", BAD.as_bytes())]);
-    let refused = rungc_in(folder.path(), &[("RUNGC_LANG", "fr")], &["check", "bad.il"]);
-    assert_eq!(refused.status.code(), Some(2));
-    let message = text(&refused.stderr);
+    let rejected = rungc_in(folder.path(), &[("RUNGC_LANG", "fr")], &["check", "bad.il"]);
+    assert_eq!(rejected.status.code(), Some(2));
+    let message = text(&rejected.stderr);
     let expected = "rungc: RUNGC_LANG=fr: unknown language; these are known: `en`, `zh`\n";
     assert_eq!(message, expected);
 }
@@ -124,9 +124,9 @@ fn settings_choose_the_language() {
         "[report]\nlang = \"fr\"\n",
     )
     .unwrap();
-    let refused = report(&[]);
-    assert!(refused.contains("unknown language `fr`"), "{refused}");
-    assert!(refused.contains("these are known: `en`, `zh`"), "{refused}");
+    let rejected = report(&[]);
+    assert!(rejected.contains("unknown language `fr`"), "{rejected}");
+    assert!(rejected.contains("these are known: `en`, `zh`"), "{rejected}");
 }
 
 /// Tools read the same in every language.
