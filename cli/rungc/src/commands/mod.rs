@@ -409,8 +409,8 @@ pub fn file_name(stem: &str, module: &str) -> String {
     if stem.is_ascii() {
         return module.to_string();
     }
-    let rejected = |c: char| text::acts(c) || "/\\:*?\"<>|".contains(c);
-    stem.trim_start_matches('.').trim().replace(rejected, "_")
+    let refused = |c: char| text::acts(c) || "/\\:*?\"<>|".contains(c);
+    stem.trim_start_matches('.').trim().replace(refused, "_")
 }
 
 /// The name of a file without folder and extension; of a project folder's `MAIN.wpg` or of `MAIN.csv` the project's.
