@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 macro_rules! codes_of {
     ($folder:literal) => {
         codes_of!($folder: "boards" "explore" "files" "fleets" "labels" "logic" "modules" "operands" "ports"
-            "practice" "project" "properties" "reading" "structure" "vendor")
+            "practice" "project" "properties" "reading" "structure" "structured" "vendor")
     };
     ($folder:literal: $($file:literal)*) => {
         [$(include_str!(concat!("../locales/", $folder, "/codes/", $file, ".ftl"))),*]
@@ -26,7 +26,7 @@ macro_rules! codes_of {
 
 const ENGLISH: &str = include_str!("../locales/en/report.ftl");
 const CHINESE: &str = include_str!("../locales/zh-CN/report.ftl");
-const CHINESE_CODES: [&str; 15] = codes_of!("zh-CN");
+const CHINESE_CODES: [&str; 16] = codes_of!("zh-CN");
 
 type Bundle = FluentBundle<FluentResource>;
 
