@@ -3,6 +3,7 @@
 
 use crate::ast::{Arg, Expr, Name, Section};
 use crate::emit::{Compiler, Errors, Made, fail};
+use crate::fold;
 use crate::labels::{Instance, Label, Stored, value_in};
 use crate::types::{Fit, Ty};
 use rungc_syntax::{Diagnostic, codes};
@@ -62,6 +63,7 @@ impl Compiler<'_> {
                             ty,
                             bounds: None,
                             stored,
+                            is_hex: fold::is_hexadecimal(&self.labels, &arg.value),
                             is_chosen: false,
                             is_used: Cell::new(true),
                         }),

@@ -332,7 +332,6 @@ fn unknown(name: &str, of: &Expr) -> Diagnostic {
     let error = codes::ST_UNKNOWN_NAME.at(of.span, what);
     match did_you_mean(&upper, spellings.iter().map(String::as_str)) {
         Some(meant) if meant != upper => error.help(format!("did you mean `{meant}`?")),
-        _ => error
-            .help("functions and function blocks are not compiled yet, except for instructions"),
+        _ => error.help("functions, and blocks of the library, are not compiled yet"),
     }
 }

@@ -67,3 +67,19 @@ fn real(op: Op, a: f64, b: f64) -> Option<f64> {
     };
     value.is_finite().then_some(value)
 }
+
+/// Returns true for a constant that is written in hexadecimal digits, or computed with one: GX Works2 keeps them.
+pub(crate) fn is_hexadecimal(labels: &Labels, expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Name(name) => match labels.get(name) {
+            Some(label) => label.is_hex,
+            None => device::constant(name).is_some() && name.starts_with(['H', 'h']),
+        },
+        ExprKind::Number(text) => text.starts_with("16#"),
+        ExprKind::Typed(text) => text.contains("#16#"),
+        ExprKind::Binary(_, left, right) => {
+            is_hexadecimal(labels, left) || is_hexadecimal(labels, right)
+        }
+        _ => false,
+    }
+}

@@ -34,6 +34,8 @@ pub(crate) struct Label {
     /// First and last index of an array.
     pub bounds: Option<(i64, i64)>,
     pub stored: Stored,
+    /// True for a constant that is written in hexadecimal digits.
+    pub is_hex: bool,
     /// False where the declaration states the device.
     pub is_chosen: bool,
     pub is_used: Cell<bool>,
@@ -205,6 +207,7 @@ impl Labels {
                 ty,
                 bounds,
                 stored: Stored::Unknown,
+                is_hex: false,
                 is_chosen: variable.place.is_none(),
                 is_used: Cell::new(of.is_none()),
             };
@@ -224,6 +227,11 @@ impl Labels {
                     cx.found.extend(self.initial(initial));
                 }
             }
+            label.is_hex = is_constant
+                && variable
+                    .initial
+                    .as_ref()
+                    .is_some_and(|initial| fold::is_hexadecimal(self, initial));
             self.by_name.insert(name.text.to_uppercase(), label);
         }
     }
@@ -269,6 +277,7 @@ impl Labels {
             ty: Ty::Raw16,
             bounds: None,
             stored: Stored::Instance(instance),
+            is_hex: false,
             is_chosen: true,
             is_used: Cell::new(false),
         });
@@ -289,7 +298,7 @@ impl Labels {
                     format!("FX has no type {name}")
                 }
                 _ => format!(
-                    "`{name}` is no elementary type; structures and function blocks are not compiled yet"
+                    "`{name}` is no elementary type; nor a function block of this text; structures and blocks of the library are not compiled yet"
                 ),
             };
             let error =

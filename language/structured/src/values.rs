@@ -297,9 +297,11 @@ impl Compiler<'_> {
         if let Some(literal) = self.constant(expr)? {
             let value = value_in(literal, ty, span).map_err(|error| vec![*error])?;
             let kind = match value {
-                Const::Int(value) if is_hexadecimal(expr) && ty != Ty::Real => u64::try_from(value)
-                    .ok()
-                    .map(|value| OperandKind::Hex(value, None)),
+                Const::Int(value) if ty != Ty::Real && fold::is_hexadecimal(&self.labels, expr) => {
+                    u64::try_from(value)
+                        .ok()
+                        .map(|value| OperandKind::Hex(value, None))
+                }
                 value => constant_operand(value, ty),
             };
             return kind.map(|kind| Operand { span, kind }).ok_or_else(|| {
@@ -484,16 +486,6 @@ impl Compiler<'_> {
 /// Instructions that detect an edge of a condition.
 pub(crate) fn is_edge(name: &str) -> bool {
     name.eq_ignore_ascii_case("MEP") || name.eq_ignore_ascii_case("MEF")
-}
-
-/// Returns true for a constant that is written in hexadecimal digits, as it then stays.
-fn is_hexadecimal(expr: &Expr) -> bool {
-    match &expr.kind {
-        ExprKind::Name(name) => device::constant(name).is_some() && name.starts_with(['H', 'h']),
-        ExprKind::Number(text) => text.starts_with("16#"),
-        ExprKind::Typed(text) => text.contains("#16#"),
-        _ => false,
-    }
 }
 
 /// A constant as an operand.

@@ -97,6 +97,19 @@ fn calls_have_the_operands_in_the_order_of_the_manual() {
 }
 
 #[test]
+fn blocks_are_expanded_with_the_operands_of_the_call() {
+    insta::assert_snapshot!(list(
+        "FUNCTION_BLOCK Limiter\nVAR_INPUT\n    In, Most : INT;\nEND_VAR\nVAR_OUTPUT\n    Out : INT;\nEND_VAR\nVAR\n    \
+         Calls : INT;\nEND_VAR\nCalls := Calls + 1;\nOut := In;\nIF In <= Most THEN RETURN; END_IF;\nOut := Most;\n\
+         END_FUNCTION_BLOCK\nPROGRAM P\nVAR\n    First, Second : Limiter;\nEND_VAR\nFirst(In := D0, Most := 100, Out => D10);\n\
+         Second(In := D1, Most := H1F, Out => D11);\nEND_PROGRAM\n"
+    ));
+    let text = "FUNCTION_BLOCK B\nVAR_INPUT\n    In : INT;\nEND_VAR\nD0 := In + X0;\nEND_FUNCTION_BLOCK\nPROGRAM P\nVAR\n    \
+                b : B;\nEND_VAR\nb();\nb(In := X1);\nb(In := 1, Out := D1);\nb(In := 2);\nb(In := 3);\nEND_PROGRAM\n";
+    insta::assert_snapshot!(compiled(text, ModelId::Fx3u).1);
+}
+
+#[test]
 fn mistakes_are_reported_where_they_are() {
     insta::assert_snapshot!(compiled(include_str!("mistakes.st"), ModelId::Fx3u).1);
 }
