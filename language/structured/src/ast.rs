@@ -101,7 +101,7 @@ pub(crate) struct Arm<T> {
 /// One label of a CASE: a value, or the first and last of a range.
 pub(crate) type Label = (Expr, Option<Expr>);
 
-/// What a statement does.
+/// Kind of a statement.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum StmtKind {
     Assign(Expr, Expr),
@@ -202,7 +202,7 @@ impl Op {
     }
 }
 
-/// What an expression is.
+/// Kind of an expression.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum ExprKind {
     /// A name, device or constant such as `K10`.

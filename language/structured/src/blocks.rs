@@ -1,5 +1,5 @@
 //! Calls of function blocks. A block is expanded at each call: its inputs and outputs are the operands of the call, its
-//! other labels have devices of their own for each instance.
+//! other labels have separate devices for each instance.
 
 use crate::ast::{Arg, Expr, Name, Section};
 use crate::emit::{Compiler, Errors, Made, fail};
@@ -14,7 +14,7 @@ use std::rc::Rc;
 /// Number of instances, and of calls of blocks, in a program.
 pub(crate) const MOST: usize = 2_000;
 
-/// What an argument of a block is for.
+/// Purpose of an argument of a block.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Use {
     Input,
@@ -110,7 +110,7 @@ impl Compiler<'_> {
         }
     }
 
-    /// What an input or output stands for in the body.
+    /// Storage of an input or output in the body.
     fn bound(&mut self, arg: &Expr, ty: Ty, role: Use) -> Made<Stored> {
         if let (Some(literal), Use::Input) = (self.constant(arg)?, role) {
             let value = value_in(literal, ty, arg.span);

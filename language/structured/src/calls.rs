@@ -58,7 +58,7 @@ impl Compiler<'_> {
         let params = parameters(&found, rest.len());
         if params.len() != rest.len() {
             let (takes, given) = (counted(params.len(), "operand"), rest.len());
-            let what = format!("`{upper}` takes {takes} behind EN, not {given}");
+            let what = format!("`{upper}` takes {takes} after EN, not {given}");
             return fail(
                 codes::ST_ARGUMENTS
                     .at(expr.span, what)
@@ -80,7 +80,7 @@ impl Compiler<'_> {
         fail(codes::ST_ARGUMENTS.at(of.span, format!("`{name}` takes EN alone, which is TRUE")))
     }
 
-    /// An instruction behind its condition.
+    /// An instruction after its condition.
     fn driven(&mut self, name: &str, found: &Found, enable: &Expr, args: &[Arg]) -> Made<()> {
         let params = parameters(found, args.len());
         let order = call_order(params);
@@ -145,9 +145,12 @@ impl Compiler<'_> {
 
     /// The bit of a compound EN; `None` for a single contact or comparison.
     fn enabled(&mut self, enable: &Expr) -> Made<Option<Cond>> {
-        let is_compound = matches!(enable.kind, ExprKind::Binary(op, ..) if !op.compares())
-            || matches!(&enable.kind, ExprKind::Not(of) if matches!(of.kind, ExprKind::Binary(op, ..) if !op.compares()))
-            || self.is_equality(enable);
+        let is_logic =
+            |expr: &Expr| matches!(expr.kind, ExprKind::Binary(op, ..) if !op.compares());
+        let is_compound = match &enable.kind {
+            ExprKind::Not(of) => is_logic(of),
+            _ => is_logic(enable) || self.is_equality(enable),
+        };
         if !is_compound {
             return Ok(None);
         }
@@ -287,7 +290,7 @@ fn is_callable(found: &Found, name: &str) -> bool {
         && !name.starts_with("CALL")
 }
 
-/// The operands that a call with so many arguments has.
+/// The operands of a call with this many arguments.
 fn parameters(found: &Found, given: usize) -> &'static [Param] {
     let all = found.inst.params;
     let least = all.iter().filter(|param| !param.optional).count();

@@ -8,7 +8,7 @@ use crate::values::is_edge;
 use rungc_syntax::{Operand, OperandKind, Span, codes};
 use std::rc::Rc;
 
-/// How two conditions are joined.
+/// Operator between two conditions.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Join {
     And,

@@ -2,7 +2,7 @@
 
 use crate::types::Ty;
 
-/// How a conversion is compiled.
+/// Instructions of a conversion.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Steps {
     /// The value stays as it is.

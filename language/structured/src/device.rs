@@ -62,7 +62,7 @@ pub(crate) fn find(word: &str) -> Option<Place> {
     Some((OperandKind::Device(device, index), ty))
 }
 
-/// A word without the index register behind its number.
+/// A word without the index register after its number.
 fn indexed(word: &str) -> (&str, Option<Index>) {
     let Some(at) = word.rfind(['V', 'Z']).filter(|at| *at > 0) else {
         return (word, None);

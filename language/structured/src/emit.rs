@@ -12,7 +12,7 @@ use std::rc::Rc;
 /// Findings about one statement.
 pub(crate) type Errors = Vec<Diagnostic>;
 
-/// What a step of compilation gives, or what is wrong.
+/// Result of a step of compilation, or its mistakes.
 pub(crate) type Made<T> = Result<T, Errors>;
 
 /// An error alone.
@@ -51,11 +51,11 @@ pub(crate) struct Compiler<'a> {
     pub heading: Option<SmolStr>,
     /// True while `LD M8000` holds for what follows.
     pub is_powered: bool,
-    /// Where EXIT leads, from the outermost loop on, and whether it was used.
+    /// Targets of EXIT, from the outermost loop on.
     pub loops: Vec<Device>,
-    /// Where RETURN leads, once it was used.
+    /// Target of RETURN, once it is used.
     pub end: Option<Device>,
-    /// What came of the statements.
+    /// Results of the statements.
     pub statements: Vec<crate::Outcome>,
     /// Number of blocks that were expanded.
     pub expansions: usize,
@@ -143,7 +143,7 @@ impl Compiler<'_> {
         })
     }
 
-    /// A temporary of so many words; 0 is a bit.
+    /// A temporary of this many words; 0 is a bit.
     pub(crate) fn temporary(&mut self, words: u32) -> Made<Device> {
         let class = if words == 0 {
             DeviceClass::M

@@ -14,7 +14,7 @@ use std::rc::Rc;
 /// Levels of blocks within blocks.
 const DEEPEST: usize = 8;
 
-/// What a label stands for.
+/// Storage of a label.
 #[derive(Clone, Debug)]
 pub(crate) enum Stored {
     Device(OperandKind),
@@ -49,7 +49,7 @@ pub(crate) struct Labels {
     pub global: Option<Rc<Labels>>,
 }
 
-/// An instance of a function block, and the labels of its own.
+/// An instance of a function block, with its labels.
 #[derive(Clone, Debug)]
 pub(crate) struct Instance {
     /// Position of the block among the units.
@@ -57,7 +57,7 @@ pub(crate) struct Instance {
     pub own: Labels,
 }
 
-/// What declarations take from, and add to.
+/// Environment of declarations.
 pub(crate) struct Declaring<'d> {
     pub supply: &'d mut Supply,
     pub known: &'d Known,
@@ -298,11 +298,10 @@ impl Labels {
                     format!("FX has no type {name}")
                 }
                 _ => format!(
-                    "`{name}` is no elementary type; nor a function block of this text; structures and blocks of the library are not compiled yet"
+                    "`{name}` is not a type; structures and blocks of the library are not compiled yet"
                 ),
             };
-            let error =
-                codes::ST_UNSUPPORTED.at(of.name.span, what.replace("is no ", "is not an "));
+            let error = codes::ST_UNSUPPORTED.at(of.name.span, what);
             found.push(
                 error.help("types are BOOL, INT, WORD, DINT, DWORD, REAL, TIME, TIMER and COUNTER"),
             );

@@ -1,8 +1,8 @@
-//! Structured text of IEC 61131-3, as GX Works2 has it for FX: its grammar, its types, and the instruction list that the
-//! editor makes of it.
+//! Structured text of IEC 61131-3, as GX Works2 has it for FX: its grammar, its types, and the instruction list that
+//! the editor makes of it.
 //!
-//! Start reading at [`compile`]. The steps are those that the compiler of GX Works2 takes where they are known; the page
-//! on structured text names the others.
+//! Start reading at [`compile`]. The steps are those that the compiler of GX Works2 takes where they are known; the
+//! page on structured text names the others.
 
 mod ast;
 mod blocks;
@@ -22,11 +22,13 @@ mod token;
 mod types;
 mod values;
 
-use ast::{Text, UnitKind};
+use ast::{Text, Unit, UnitKind};
 use emit::Compiler;
 use labels::{Declaring, Labels, Stored, Supply};
 use rungc_models::Model;
-use rungc_syntax::{Device, Diagnostics, Instr, OperandKind, Program, SourceKind, Span, codes};
+use rungc_syntax::{
+    Device, Diagnostics, Instr, OperandKind, Program, Severity, SourceKind, Span, codes,
+};
 use std::collections::BTreeMap;
 use std::mem;
 use std::rc::Rc;
@@ -74,7 +76,7 @@ pub fn check_syntax(text: &str) -> Diagnostics {
     out
 }
 
-/// What came of a statement when a program was compiled in spite of errors.
+/// Result of a statement of a program that was compiled in spite of errors.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Outcome {
     /// Place of the statement, or of the part of it before other statements; its instructions have the same place.
@@ -138,41 +140,7 @@ fn compiled(
     found: &mut Vec<rungc_syntax::Diagnostic>,
 ) -> Option<Compiled> {
     let tree = parsed(text, found)?;
-    for structure in &tree.structures {
-        let what = format!(
-            "the structure `{}` is not compiled yet",
-            structure.name.text
-        );
-        found.push(codes::ST_UNSUPPORTED.at(structure.name.span, what));
-    }
-    let functions = tree
-        .units
-        .iter()
-        .filter(|unit| unit.kind == UnitKind::Function);
-    for unit in functions {
-        let span = unit.head.to(unit.name.span);
-        found.push(codes::ST_UNSUPPORTED.at(span, "functions of your own are not compiled yet"));
-    }
-    let mut programs = tree
-        .units
-        .iter()
-        .filter(|unit| unit.kind == UnitKind::Program);
-    let Some(program) = programs.next() else {
-        if !found
-            .iter()
-            .any(|one| one.severity == rungc_syntax::Severity::Error)
-        {
-            let error = codes::ST_SYNTAX.at(Span::default(), "this text holds no PROGRAM");
-            found.push(error.help("write `PROGRAM Main`, the statements, and `END_PROGRAM`"));
-        }
-        return None;
-    };
-    for other in programs {
-        let span = other.head.to(other.name.span);
-        let error =
-            codes::ST_UNSUPPORTED.at(span, "a text with several programs is not compiled yet");
-        found.push(error.other(program.name.span, "the first program"));
-    }
+    let program = only_program(&tree, found)?;
     let mut supply = Supply::new(ranges::of(model));
     supply.avoid(known);
     let mut cx = Declaring {
@@ -224,10 +192,7 @@ fn compiled(
             found.push(one);
         }
     }
-    if !found
-        .iter()
-        .any(|one| one.severity == rungc_syntax::Severity::Error)
-    {
+    if !has_errors(found) {
         unused(&labels, found);
         unused(&global, found);
     }
@@ -237,6 +202,48 @@ fn compiled(
         statements,
         comments: comments([&*global, &*labels]),
     })
+}
+
+/// The program of a text; what else is in it and is not compiled is reported.
+fn only_program<'t>(tree: &'t Text, found: &mut Vec<rungc_syntax::Diagnostic>) -> Option<&'t Unit> {
+    for structure in &tree.structures {
+        let what = format!(
+            "the structure `{}` is not compiled yet",
+            structure.name.text
+        );
+        found.push(codes::ST_UNSUPPORTED.at(structure.name.span, what));
+    }
+    let functions = tree
+        .units
+        .iter()
+        .filter(|unit| unit.kind == UnitKind::Function);
+    for unit in functions {
+        let span = unit.head.to(unit.name.span);
+        found.push(codes::ST_UNSUPPORTED.at(span, "functions of your own are not compiled yet"));
+    }
+    let mut programs = tree
+        .units
+        .iter()
+        .filter(|unit| unit.kind == UnitKind::Program);
+    let Some(program) = programs.next() else {
+        if !has_errors(found) {
+            let error = codes::ST_SYNTAX.at(Span::default(), "this text holds no PROGRAM");
+            found.push(error.help("write `PROGRAM Main`, the statements, and `END_PROGRAM`"));
+        }
+        return None;
+    };
+    for other in programs {
+        let span = other.head.to(other.name.span);
+        let error =
+            codes::ST_UNSUPPORTED.at(span, "a text with several programs is not compiled yet");
+        found.push(error.other(program.name.span, "the first program"));
+    }
+    Some(program)
+}
+
+/// Returns true if an error is among some findings.
+fn has_errors(found: &[rungc_syntax::Diagnostic]) -> bool {
+    found.iter().any(|one| one.severity == Severity::Error)
 }
 
 /// Warns of labels without a use.

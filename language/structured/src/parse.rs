@@ -98,7 +98,7 @@ fn is_any(token: Token, keywords: &[&str]) -> bool {
     keywords.iter().any(|keyword| token.is(keyword))
 }
 
-/// Place of what a rule has matched; of nothing, the place behind the token before.
+/// Place of what a rule has matched; of nothing, the place after the previous token.
 fn place(matched: &mut Matched) -> Span {
     let span: SimpleSpan = matched.span();
     place_in(matched.state().0, span)

@@ -1,5 +1,5 @@
-//! Devices that GX Works2 reserves for labels without a device, for temporaries and for jumps, as it sets them for a new
-//! project of each CPU.
+//! Devices that GX Works2 reserves for labels without a device, for temporaries and for jumps, as it sets them for a
+//! new project of each CPU.
 
 use rungc_models::{Model, ModelId};
 use rungc_syntax::DeviceClass;
@@ -40,7 +40,8 @@ static FX2N: Ranges = ranges((512, 999), (100, 199), (100, 199), (512, 1535), (3
 static FX1N: Ranges = ranges((400, 999), (100, 199), (100, 199), (512, 1535), (30, 127));
 static FX1S: Ranges = ranges((128, 255), (16, 31), (16, 31), (256, 511), (30, 62));
 
-/// The reserved devices for a model. Models of other makers have those of the Mitsubishi model whose projects they take.
+/// The reserved devices for a model. Models of other makers have those of the Mitsubishi model whose projects they
+/// take.
 pub(crate) fn of(model: &Model) -> &'static Ranges {
     match model.id {
         ModelId::Fx3u | ModelId::Fx3uCompatible => &FX3U,

@@ -1,4 +1,4 @@
-//! What can be said of a text before it is understood: how deep it nests, and which keywords and semicolons are missing.
+//! Checks of a text before it is understood: how deep it nests, and which keywords and semicolons are missing.
 
 use crate::ast::{Body, Closed, Stmt, StmtKind, Text, UnitKind};
 use crate::token::{Lexeme, Token};
@@ -91,7 +91,7 @@ pub(crate) fn endings(text: &Text, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// A keyword is missing behind a place; what it would end begins at another.
+/// A keyword is missing after a place; what it would end begins at another.
 fn missing(keyword: &str, after: Span, begins: Span) -> Diagnostic {
     let at = Span::new(after.end, after.end);
     let error = codes::ST_SYNTAX.at(at, format!("`{keyword}` is missing"));

@@ -1,5 +1,5 @@
-//! The words and signs of a text, with their places. Every text can be split: a character that begins nothing is a token
-//! of its own, which the parser reports.
+//! The words and signs of a text, with their places. Every text can be split: a character that begins nothing is a
+//! separate token, which the parser reports.
 
 use chumsky::error::EmptyErr;
 use chumsky::prelude::*;

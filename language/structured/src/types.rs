@@ -26,7 +26,7 @@ pub(crate) enum Ty {
     Fraction,
 }
 
-/// How a value suits a place.
+/// Relation of a value to a place.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Fit {
     Fits,
@@ -88,7 +88,7 @@ impl Ty {
         matches!(self, Ty::Integer | Ty::Fraction)
     }
 
-    /// How a value of this type suits a place of another.
+    /// Relation of a value of this type to a place of another.
     pub(crate) fn fit(self, place: Ty) -> Fit {
         use Ty::*;
         match (self, place) {

@@ -445,7 +445,7 @@ impl Compiler<'_> {
             let error = codes::ST_UNSUPPORTED.at(arg.span, what);
             return fail(error.help("assign it to a label first"));
         }
-        // A multiplication and the two halves of a double word need a place of their own.
+        // A multiplication and the two halves of a double word need a separate place.
         let own = matches!(steps, Steps::Sign | Steps::Zero);
         let result = match target.filter(|_| !own) {
             Some(target) => target.clone(),

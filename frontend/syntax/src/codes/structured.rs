@@ -27,7 +27,7 @@ super::codes! {
 
     ST_ARGUMENTS = "E0204" "st-arguments" Error None,
     "arguments that do not fit",
-    "An instruction is called with EN, its sources, and its destinations: `MOV(EN, S, D)`. Where the manual has a number n behind the destination, n stands before it: `BMOV(EN, S, n, D)`.",
+    "An instruction is called with EN, its sources, and its destinations: `MOV(EN, S, D)`. Where the manual has a number n after the destination, n stands before it: `BMOV(EN, S, n, D)`.",
     wrong: "PROGRAM Main\nMOV(X0, D0);\nEND_PROGRAM\n",
     right: "PROGRAM Main\nMOV(X0, D0, D1);\nEND_PROGRAM\n";
 

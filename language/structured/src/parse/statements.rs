@@ -50,7 +50,7 @@ pub(super) fn body<'t>() -> Rule<'t, Body> {
     .boxed()
 }
 
-/// Beginning of a label of CASE: a value and a colon, comma or dots behind it.
+/// Beginning of a label of CASE: a value and a colon, comma or dots after it.
 fn label_head<'t>() -> Rule<'t, ()> {
     let value = any().filter(|lexeme: &Lexeme| {
         matches!(
@@ -77,7 +77,7 @@ fn simple<'t>(expression: &Rule<'t, Expr>) -> Rule<'t, StmtKind> {
     choice((assign.boxed(), exit.boxed(), return_.boxed())).boxed()
 }
 
-/// An expression and the keyword behind it. What cannot be read up to the keyword is reported.
+/// An expression and the keyword after it. What cannot be read up to the keyword is reported.
 fn up_to<'t>(expression: &Rule<'t, Expr>, word: &'static str) -> Rule<'t, Expr> {
     let inner = any().filter(move |lexeme: &Lexeme| {
         lexeme.token != Token::Sign(";") && !lexeme.token.is(word) && !is_any(lexeme.token, &ENDS)

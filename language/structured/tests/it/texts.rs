@@ -1,4 +1,4 @@
-//! What becomes of texts: lists, and findings.
+//! Lists and findings that texts give.
 
 use rungc_models::{Model, ModelId};
 use rungc_structured::compile;
@@ -52,7 +52,8 @@ fn list(text: &str) -> String {
 }
 
 fn body(statements: &str) -> String {
-    let labels = "a AT M1 : BOOL;\nb AT M2 : BOOL;\nc AT M3 : BOOL;\ni AT D10 : INT;\nj AT D11 : INT;\nd AT D20 : DINT;\n\
+    let labels = "a AT M1 : BOOL;\nb AT M2 : BOOL;\nc AT M3 : BOOL;\ni AT D10 : INT;\nj AT D11 : INT;\n\
+         d AT D20 : DINT;\n\
         e AT D22 : DINT;\nr AT D30 : REAL;\ns AT D32 : REAL;\nu AT D40 : DWORD;\nvv AT D42 : DWORD;\nw AT D50 : WORD;\n\
         t AT D60 : TIME;\nx AT D100 : ARRAY [0..9] OF INT;\n";
     format!("PROGRAM P\nVAR\n{labels}END_VAR\n{statements}END_PROGRAM\n")
@@ -62,7 +63,8 @@ fn body(statements: &str) -> String {
 fn conditions_have_the_contacts_of_gx_works2() {
     insta::assert_snapshot!(list(&body(
         "c := a AND NOT b;\nc := a AND i = 0;\nc := NOT a AND i = 0;\nc := a AND (b OR i > 5);\n\
-         c := a AND b AND (X0 OR X1);\nc := d > e;\nc := u >= vv;\nc := a = b;\nc := (a OR b) <> X1;\nc := NOT (a AND b);\n\
+         c := a AND b AND (X0 OR X1);\nc := d > e;\nc := u >= vv;\nc := a = b;\nc := (a OR b) <> X1;\n\
+         c := NOT (a AND b);\n\
          c := D100.3;\nc := TRUE;\nc := i + j > 5;\nc := a XOR b;\n"
     )));
 }
@@ -91,20 +93,25 @@ fn branches_and_loops_have_the_jumps_of_gx_works2() {
 fn calls_have_the_operands_in_the_order_of_the_manual() {
     insta::assert_snapshot!(list(&body(
         "MOV(a, i, j);\nDMOV(TRUE, d, e);\nBMOV(a, x[0], 5, D200);\nROL(a, 3, w);\nSET(a AND b, c);\nRST(a, d);\n\
-         OUT_T(a, TC0, 50);\nOUT_T(a AND b, TC0, i);\nINC(a, i);\nEI(TRUE);\nMOV(a, i + 1, j);\nMOV(a AND b, i + 1, j);\n\
-         MOV(TRUE, i + 1, j);\nSET(MEP(a), c);\nPLS(a, c);\nDECO(a, i, 6, M100);\nDMOV(a, -45_000, d);\nMOV(a, H0C87, D8120);\n"
+         OUT_T(a, TC0, 50);\nOUT_T(a AND b, TC0, i);\nINC(a, i);\nEI(TRUE);\nMOV(a, i + 1, j);\n\
+         MOV(a AND b, i + 1, j);\n\
+         MOV(TRUE, i + 1, j);\nSET(MEP(a), c);\nPLS(a, c);\nDECO(a, i, 6, M100);\nDMOV(a, -45_000, d);\n\
+         MOV(a, H0C87, D8120);\n"
     )));
 }
 
 #[test]
 fn blocks_are_expanded_with_the_operands_of_the_call() {
     insta::assert_snapshot!(list(
-        "FUNCTION_BLOCK Limiter\nVAR_INPUT\n    In, Most : INT;\nEND_VAR\nVAR_OUTPUT\n    Out : INT;\nEND_VAR\nVAR\n    \
+        "FUNCTION_BLOCK Limiter\nVAR_INPUT\n    In, Most : INT;\nEND_VAR\nVAR_OUTPUT\n    Out : INT;\nEND_VAR\n\
+         VAR\n    \
          Calls : INT;\nEND_VAR\nCalls := Calls + 1;\nOut := In;\nIF In <= Most THEN RETURN; END_IF;\nOut := Most;\n\
-         END_FUNCTION_BLOCK\nPROGRAM P\nVAR\n    First, Second : Limiter;\nEND_VAR\nFirst(In := D0, Most := 100, Out => D10);\n\
+         END_FUNCTION_BLOCK\nPROGRAM P\nVAR\n    First, Second : Limiter;\nEND_VAR\n\
+         First(In := D0, Most := 100, Out => D10);\n\
          Second(In := D1, Most := H1F, Out => D11);\nEND_PROGRAM\n"
     ));
-    let text = "FUNCTION_BLOCK B\nVAR_INPUT\n    In : INT;\nEND_VAR\nD0 := In + X0;\nEND_FUNCTION_BLOCK\nPROGRAM P\nVAR\n    \
+    let text = "FUNCTION_BLOCK B\nVAR_INPUT\n    In : INT;\nEND_VAR\nD0 := In + X0;\nEND_FUNCTION_BLOCK\n\
+         PROGRAM P\nVAR\n    \
                 b : B;\nEND_VAR\nb();\nb(In := X1);\nb(In := 1, Out := D1);\nb(In := 2);\nb(In := 3);\nEND_PROGRAM\n";
     insta::assert_snapshot!(compiled(text, ModelId::Fx3u).1);
 }
@@ -132,7 +139,8 @@ fn examples_of_codes_show_their_code() {
 
 #[test]
 fn labels_get_devices_of_the_range_of_the_model_from_the_top() {
-    let text = "PROGRAM P\nVAR\n    a, b : BOOL;\n    i : INT;\n    d : DINT;\nEND_VAR\na := b; d := 1; i := 2;\nEND_PROGRAM\n";
+    let text = "PROGRAM P\nVAR\n    a, b : BOOL;\n    i : INT;\n    d : DINT;\nEND_VAR\n\
+         a := b; d := 1; i := 2;\nEND_PROGRAM\n";
     let devices = |model| {
         let (program, found) = compiled(text, model);
         assert_eq!(found, "");
