@@ -126,7 +126,10 @@ fn settings_choose_the_language() {
     .unwrap();
     let rejected = report(&[]);
     assert!(rejected.contains("unknown language `fr`"), "{rejected}");
-    assert!(rejected.contains("these are known: `en`, `zh`"), "{rejected}");
+    assert!(
+        rejected.contains("these are known: `en`, `zh`"),
+        "{rejected}"
+    );
 }
 
 /// Tools read the same in every language.
