@@ -141,5 +141,3 @@ fn translated(
 
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod tests;
