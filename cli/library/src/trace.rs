@@ -103,11 +103,12 @@ fn values(target: Target, text: &str, model: &Model) -> Option<Vec<(Item, i32)>>
         let mut items = items.filter(|_| model.has(class, number));
         items.find(|item| matches!(item, Item::Bit(..)) == is_bit)
     };
-    let words = |words: &[i16]| {
+    let words = |words: &[i16]| -> Vec<(Item, i32)> {
         let words = (0..).zip(words);
-        words.map_while(|(at, &word)| Some((item(at, false)?, word.into())))
+        let words = words.map_while(|(at, &word)| Some((item(at, false)?, word.into())));
+        words.collect()
     };
-    let pair = |value: u32| words(&[value as i16, (value >> 16) as i16]).collect();
+    let pair = |value: u32| words(&[value as i16, (value >> 16) as i16]);
     Some(match target {
         Target::Bit(..) => {
             let value: i32 = text.parse().ok().filter(|value| matches!(value, 0 | 1))?;
@@ -140,7 +141,7 @@ fn values(target: Target, text: &str, model: &Model) -> Option<Vec<(Item, i32)>>
                 .chunks(2)
                 .map(|pair| i16::from_le_bytes([pair[0], *pair.get(1).unwrap_or(&0)]))
                 .collect();
-            words(&words_of).collect()
+            words(&words_of)
         }
         Target::Pulses(_) | Target::Frequency(_) | Target::Channel(_) => Vec::new(),
     })

@@ -53,7 +53,6 @@ use rungc_frontend::{Encoding, ReadOptions};
 use rungc_models::{ModelId, Plc};
 use rungc_project::Check;
 use std::path::PathBuf;
-use std::str::FromStr;
 use values::{encoding, language, limit, model, omissible, plc, target, warning};
 
 /// Default maximum number of diagnostics in the human format.
