@@ -147,7 +147,7 @@ pub enum Command {
     /// Without a run, lists what can switch the device. With --set, --for or --machine, the program runs to that
     /// moment, and the answer says what keeps the device as it is, since when, and what would change it.
     Why(WhyArgs),
-    /// Show the devices of a PLC as they change, over its programming port.
+    /// Show the devices of a PLC as they change, by its programming port, MC protocol or Modbus.
     ///
     /// The PLC is read, and nothing in it is changed.
     Watch(WatchArgs),
