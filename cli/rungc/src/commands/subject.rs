@@ -379,10 +379,11 @@ pub fn each_in<P: Send>(
         let language = cx.language.or(settings);
         let counts = counts(&totals, language);
         let id = if unusable > 0 { "total-but" } else { "total" };
+        let unusable = unusable.to_string();
         let arguments = [
             ("programs", subjects.len().into()),
             ("counts", (&counts).into()),
-            ("unusable", unusable.into()),
+            ("unusable", (&unusable).into()),
         ];
         cx.note(&message(language, id, &arguments));
     }

@@ -60,7 +60,8 @@ pub fn print(findings: &Findings, name: &str, style: Style, out: &mut dyn Write)
     }
     let hidden = all.saturating_sub(shown);
     if hidden > 0 {
-        let more = message(language, "more-findings", &[("count", hidden.into())]);
+        let hidden = hidden.to_string();
+        let more = message(language, "more-findings", &[("count", (&hidden).into())]);
         writeln!(out, "{more}\n")?;
     }
     Ok(())
@@ -130,7 +131,8 @@ fn draw(findings: &Findings, name: &str, d: &Diagnostic, style: Style) -> io::Re
     }
     let more = d.others.len().saturating_sub(MAX_PLACES);
     if more > 0 {
-        let more = message(language, "more-places", &[("count", more.into())]);
+        let more = more.to_string();
+        let more = message(language, "more-places", &[("count", (&more).into())]);
         report.add_note(marked(&more));
     }
     let number = d.plc_error.map(|number| number.to_string());

@@ -145,23 +145,3 @@ fn formats_for_tools_stay_english() {
         assert!(!english.stdout.is_empty(), "{format}");
     }
 }
-
-/// Comments may name devices; columns below them stay aligned, whatever the width of their characters.
-#[test]
-fn columns_are_as_wide_as_their_names() {
-    let program = ";! X000 = 启动按钮\nLD X0\nOUT Y0\nEND\n";
-    let folder = folder(&[("a.il", program.as_bytes())]);
-    let args = [
-        "run",
-        "a.il",
-        "--set",
-        "X000=1@20ms",
-        "--for",
-        "40ms",
-        "--watch",
-        "启动按钮,Y000",
-    ];
-    let table = shown(folder.path(), &args);
-    assert!(table.contains("      time 启动按钮 Y000\n"), "{table}");
-    assert!(table.contains("   0.000 s        ·    ·\n"), "{table}");
-}

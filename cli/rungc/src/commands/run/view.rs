@@ -1,7 +1,6 @@
 //! Output of `rungc run`: a table with a row for each change, and a timing diagram of the bits at the end.
 
 use std::fmt::Write as _;
-use unicode_width::UnicodeWidthStr as _;
 
 /// Presentation of a watched device.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -53,8 +52,7 @@ impl View {
     pub fn heading(&self) -> String {
         let mut line = format!("{:>10}", "time");
         for column in &self.columns {
-            let missing = width(column).saturating_sub(column.name.width());
-            let _ = write!(line, " {:missing$}{}", "", column.name);
+            let _ = write!(line, " {:>width$}", column.name, width = width(column));
         }
         line
     }
@@ -96,16 +94,18 @@ impl View {
             .zip(&self.traces)
             .filter(|(c, _)| c.kind == Kind::Bit)
             .collect();
-        let name_width = bits.iter().map(|(c, _)| c.name.width()).max().unwrap_or(0);
+        let name_width = bits
+            .iter()
+            .map(|(c, _)| c.name.chars().count())
+            .max()
+            .unwrap_or(0);
         let mut text = String::new();
         for (column, trace) in &bits {
             let _ = writeln!(
                 text,
-                "  {:missing$}{}  {}",
-                "",
+                "  {:>name_width$}  {}",
                 column.name,
-                line(trace, total_ms.max(1)),
-                missing = name_width.saturating_sub(column.name.width())
+                line(trace, total_ms.max(1))
             );
         }
         if !bits.is_empty() {
@@ -122,8 +122,11 @@ impl View {
 }
 
 fn width(column: &Column) -> usize {
-    let least = if column.kind == Kind::Bit { 1 } else { 6 };
-    column.name.width().max(least)
+    column
+        .name
+        .chars()
+        .count()
+        .max(if column.kind == Kind::Bit { 1 } else { 6 })
 }
 
 /// One line of the diagram: high, low, or `┃` where a slice of time holds more than one change.
