@@ -13,6 +13,22 @@ const PROPERTIES: &str = r#"# What the program must never do, and what the machi
 # assume = ["!(X000 & X001)"]
 "#;
 
+/// What is around the program, as comments.
+const OUTSIDE: &str = r#"# Devices that operator panels write and read: to checks and proofs, those written may change at any time.
+# [hmi]
+# writes = "D70-D79"
+# reads = "M0-M15"
+
+# What `rungc serve` opens, and devices that an emitted program stores for its ports, beyond those that the program names.
+# [serve]
+# modbus-tcp = "127.0.0.1:5020"
+# mc = "127.0.0.1:5001"
+# fx = "127.0.0.1:5556"
+# page = "127.0.0.1:8080"
+# serial = { COM1 = "/dev/ttyUSB0" }
+# D = "D0-D511"
+"#;
+
 /// The line that names the program.
 fn program_line(program: Option<&Path>) -> String {
     match program {
@@ -97,20 +113,7 @@ deny = []
 # kind = "FX2N-4AD"
 
 {PROPERTIES}
-# Devices that operator panels write and read: to checks and proofs, those written may change at any time.
-# [hmi]
-# writes = "D70-D79"
-# reads = "M0-M15"
-
-# What `rungc serve` opens, and devices that an emitted program stores for its ports, beyond those that the program names.
-# [serve]
-# modbus-tcp = "127.0.0.1:5020"
-# mc = "127.0.0.1:5001"
-# fx = "127.0.0.1:5556"
-# page = "127.0.0.1:8080"
-# serial = {{ COM1 = "/dev/ttyUSB0" }}
-# D = "D0-D511"
-"#,
+{OUTSIDE}"#,
         models = models.join(", ")
     )
 }

@@ -183,8 +183,8 @@ pub enum Command {
     ///
     /// Offers tools that read, check, run, test and prove programs, pages of the book, and prompts. Assistants start
     /// this command (`rungc book assistants`) and talk to it on standard input and output. It reads files below its
-    /// folders, writes none unless `--allow-write` names a folder for that, and opens no connection. Exit codes: 0: the client
-    /// has closed the input; 2: incorrect usage, or output that cannot be written.
+    /// folders, writes none unless `--allow-write` names a folder for that, and opens no connection. Exit codes: 0: the
+    /// client has closed the input; 2: incorrect usage, or output that cannot be written.
     Mcp(McpArgs),
     /// Print what an assistant, or a person in a hurry, must know of the language and of rungc.
     Guide,

@@ -1,4 +1,5 @@
-//! A PLC that is a Modbus slave: by Modbus TCP, or by RTU on a serial line. Its devices have the addresses of its model.
+//! A PLC that is a Modbus slave: by Modbus TCP, or by RTU on a serial line. Its devices have the addresses of its
+//! model.
 
 use crate::{Error, Item, Line, Patience, Sample};
 use rungc_rt::comm::modbus::{Area, Fill, Profile, crc16};
@@ -15,7 +16,7 @@ const WORD_GAP: u16 = 8;
 /// Marks an answer as a rejection.
 const REJECTED: u8 = 0x80;
 
-/// Bytes of an answer besides its values: unit, function, number of bytes.
+/// Bytes of an answer before its values: unit, function, number of bytes.
 const HEAD: usize = 3;
 
 /// Functions that read. There are no others here.

@@ -291,7 +291,7 @@ impl<'p> Explainer<'p> {
         notes
     }
 
-    /// True for a state with instructions of its own, which transitions to others reset.
+    /// True for a state that has an STL, so that transitions to others reset it.
     fn is_step(&self, device: Device) -> bool {
         let program = self.words.resolved.program;
         let mut steps = program.instrs.iter();

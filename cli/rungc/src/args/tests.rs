@@ -6,7 +6,7 @@ use std::any::TypeId;
 use std::collections::BTreeSet;
 
 /// Arguments whose files are read. Those that are written have the type [`OutputPath`].
-const INPUTS: [&str; 15] = [
+const INPUTS: [&str; 16] = [
     "allow_folder",
     "allow_write",
     "board",
@@ -21,6 +21,7 @@ const INPUTS: [&str; 15] = [
     "root",
     "same_as",
     "topic",
+    "trace",
     "volume",
 ];
 

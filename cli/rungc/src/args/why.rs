@@ -13,7 +13,8 @@ Examples:
   rungc why press.il \"press valve\" --for 1s             a device by its comment
   rungc why press.il Y000 --how                         what a person can do so that it changes
   rungc why press.il Y000 --port /dev/ttyUSB0           why it is on or off in the PLC itself
-  rungc why press.il Y000 --trace monday.csv --at 35s   why it was on or off in a recording of the PLC
+  rungc why press.il Y000 --trace monday.csv --moment 35s
+                                                        why it was on or off in a recording of the PLC
   rungc why press.il Y000 --for 1s --format json        the answer as an object")]
 pub struct WhyArgs {
     #[command(flatten)]
@@ -45,7 +46,7 @@ pub struct WhyArgs {
     pub trace: Option<PathBuf>,
     /// Time of the moment in the recording. Default: its end.
     #[arg(long, requires = "trace", value_parser = crate::time::parse, value_name = "TIME")]
-    pub at: Option<u64>,
+    pub moment: Option<u64>,
     /// Search for what a person can do from that moment on so that the device changes.
     #[arg(long)]
     pub how: bool,

@@ -128,11 +128,13 @@ fn shown(
     for name in names {
         for target in known.targets(name).map_err(Failure::Because)? {
             check(target, model)?;
-            shown.push(target);
-            // The value beside the contact.
-            if let Target::Bit(class @ (DeviceClass::T | DeviceClass::C), number) = target {
-                shown.push(Target::Current(class, number));
+            // The contact beside the value.
+            if let Target::Current(class, number) = target
+                && !name.ends_with(".value")
+            {
+                shown.push(Target::Bit(class, number));
             }
+            shown.push(target);
         }
     }
     Ok(shown)

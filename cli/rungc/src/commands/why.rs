@@ -148,7 +148,7 @@ impl Run<'_> {
         let bytes = fs::read(path).map_err(|error| refuse(&error.to_string()))?;
         let trace = Trace::read(&bytes, model).map_err(|why| refuse(&why))?;
         let (first_ms, last_ms) = trace.times();
-        let ms = self.args.at.unwrap_or(last_ms);
+        let ms = self.args.moment.unwrap_or(last_ms);
         if !(first_ms..=last_ms).contains(&ms) {
             let why = format!("the recording is from {first_ms} to {last_ms} ms");
             return Err(refuse(&why));

@@ -152,19 +152,19 @@ fn a_recording_answers_as_the_plc_does() {
     ];
     let shown = |more: &[&str]| printed(folder.path(), &[&why[..], more].concat(), &[]);
     assert!(
-        shown(&[]).starts_with("M0 \"automatic\" is on at 3010 ms"),
+        shown(&[]).starts_with("M0 \"automatic\" is on at 3.01 s"),
         "{}",
         shown(&[])
     );
     assert!(
-        shown(&["--at", "1s"]).starts_with("M0 \"automatic\" is off at 1000 ms"),
+        shown(&["--moment", "1s"]).starts_with("M0 \"automatic\" is off at 1 s"),
         "{}",
-        shown(&["--at", "1s"])
+        shown(&["--moment", "1s"])
     );
     for (trace, more, expected) in [
         (
             recording.as_str(),
-            &["--at", "9s"][..],
+            &["--moment", "9s"][..],
             "the recording is from 0 to 0 ms",
         ),
         (
@@ -437,11 +437,7 @@ fn bad_addresses_are_errors() {
         ),
         (
             &["watch", "p.il", "--mc", &closed, "--unit", "3"],
-            "--modbus",
-        ),
-        (
-            &["watch", "p.il", "--mc", &closed, "--baud", "300"],
-            "--port",
+            "cannot be used with",
         ),
         (&["watch", "p.il", "--mc", &closed], "cannot open"),
         (&["watch", "p.il", "--mc", "plc"], "HOST:PORT"),

@@ -249,8 +249,8 @@ fn inputs_shared(code: &Code, others: &[Other], counters: &[Counter], out: &mut 
 }
 
 /// SPD and positioning on an input that serves something else. The manuals advise against it, but it works all the same
-/// (h1u-h2u-programming §4.3.6 allows counters and interrupts at the input of SPD, and §4.3.1 advises against interrupts;
-/// l01s-programming §6.4.1).
+/// (h1u-h2u-programming §4.3.6 allows counters and interrupts at the input of SPD, and §4.3.1 advises against
+/// interrupts; l01s-programming §6.4.1).
 fn looked_at(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diagnostics) {
     let measures: Vec<(usize, u32)> = measured(code).map(|(i, x)| (i, x.number)).collect();
     let positions = positioned(code);
