@@ -322,7 +322,9 @@ fn write_whole(path: &Path, contents: &[u8], force: bool, mode: u32) -> Result<(
 /// Changes a file that the user has named to be changed: a list that is formatted, settings that get a table, an
 /// accepted trace. The new contents appear whole or not at all.
 pub fn rewrite(path: &Path, contents: &[u8]) -> Result<(), Failure> {
-    writable(path)?;
+    if path.exists() {
+        writable(path)?;
+    }
     let file = making(path, 0o666)?;
     let written = file.as_file().write_all(contents);
     let persisted = written.and_then(|()| file.persist(path).map_err(|error| error.error));

@@ -98,7 +98,7 @@ impl Supply {
             DeviceClass::C => &mut self.c,
             _ => &mut self.d,
         };
-        let number = free.from_top(count)?;
+        let number = free.take_top(count)?;
         Some(Device {
             class: free.class,
             number,
@@ -129,7 +129,7 @@ impl Supply {
 
     /// The next pointer, from the bottom of the range up.
     pub(crate) fn pointer(&mut self) -> Option<Device> {
-        let number = self.p.from_bottom()?;
+        let number = self.p.take_bottom()?;
         Some(Device {
             class: self.p.class,
             number,

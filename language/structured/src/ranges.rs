@@ -72,7 +72,7 @@ impl Free {
     }
 
     /// The first of `count` numbers from the top.
-    pub(crate) fn from_top(&mut self, count: u32) -> Option<u32> {
+    pub(crate) fn take_top(&mut self, count: u32) -> Option<u32> {
         let first = self
             .end
             .checked_sub(count)
@@ -99,7 +99,7 @@ impl Free {
     }
 
     /// The lowest number.
-    pub(crate) fn from_bottom(&mut self) -> Option<u32> {
+    pub(crate) fn take_bottom(&mut self) -> Option<u32> {
         let number = self.first;
         (number < self.end).then(|| self.first += 1)?;
         Some(number)

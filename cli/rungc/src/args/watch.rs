@@ -33,7 +33,7 @@ pub struct WatchArgs {
     #[arg(long, conflicts_with = "duration")]
     pub once: bool,
     /// Compare the program in the PLC with the file first, which takes as long as `rungc read`.
-    #[arg(long, requires = "port")]
+    #[arg(long, requires = "port", conflicts_with_all = ["mc", "modbus"])]
     pub compare: bool,
     /// Output format.
     #[arg(long, value_enum, default_value_t = WatchTo::Text)]

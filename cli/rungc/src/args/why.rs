@@ -37,7 +37,7 @@ pub struct WhyArgs {
     #[arg(long, conflicts_with = "plc", value_name = "FILE")]
     pub machine: Option<PathBuf>,
     /// Compare the program in the PLC with the file first, which takes as long as `rungc read`.
-    #[arg(long, requires = "port")]
+    #[arg(long, requires = "port", conflicts_with_all = ["mc", "modbus", "trace"])]
     pub compare: bool,
     #[command(flatten)]
     pub plc: PlcArgs,

@@ -327,8 +327,8 @@ T1 contact,";
     }
     for (name, why) in [
         ("Y000.pulses", "does not show `Y000.pulses`"),
-        ("K4Y364", "`Y400` does not exist"),
-        ("Y0..Y400", "`Y400` does not exist"),
+        ("K4Y364", "`Y370` does not exist"),
+        ("Y0..Y400", "`Y370` does not exist"),
     ] {
         let output = rungc(
             folder.path(),
