@@ -68,7 +68,7 @@ const RULES: [Rule; 16] = [
     rule(
         "view",
         "width",
-        |m| !is_document(m) && !(has(m, &["output"]) && has(m, &["sfc"])),
+        |m| !(is_document(m) || has(m, &["output"]) && has(m, &["sfc"])),
         "does not apply to a document, which has the width of its paper, or to a picture of a chart",
     ),
     rule(

@@ -1,6 +1,7 @@
 //! Texts that are smaller than a program: descriptions, conditions, names of devices and of lines.
 
 use super::Target;
+use rungc::trace::Trace;
 use rungc_fleet::Fleet;
 use rungc_frontend::Names;
 use rungc_host::{duration, io};
@@ -75,11 +76,19 @@ fn structured(text: &str) {
     let _ = compile(&read.program, &options);
 }
 
+/// A recording of a PLC, and its moments.
+fn recording(text: &str) {
+    if let Ok(trace) = Trace::read(text.as_bytes(), Model::get(ModelId::Fx3u)) {
+        let (first, last) = trace.times();
+        assert!(first <= last);
+        let _ = (trace.at(first), trace.at(last), trace.at(u64::MAX));
+    }
+}
+
 fn names(text: &str) {
     let _ = Names::parse(text);
 }
 
-/// Single words, as arguments of the command line and lines between processes have them.
 /// Safety functions of a project's settings, and its cause-and-effect matrix `m.csv`: the text after a line of `---`.
 fn functions(text: &str) {
     let (settings, matrix) = text.split_once("---\n").unwrap_or((text, ""));
@@ -93,6 +102,7 @@ fn functions(text: &str) {
     }
 }
 
+/// Single words, as arguments of the command line and lines between processes have them.
 fn words(text: &str) {
     for word in text.lines() {
         let _ = rungc_sim::Target::parse(word);
@@ -150,6 +160,14 @@ pub(super) fn targets() -> [Target; 7] {
                 "[io.panel]\nfiles = \"panel\"\nX000-X001 = \"read buttons\"\nD100 = \"read level loss -1\"\nevery = \"10ms\"\nfault = \"M100\"\n",
                 "[io.cell]\nmqtt = \"192.168.1.5\"\nX000-X007 = \"read cell/in\"\nD0-D3 = \"read cell/{}\"\nY000 = \"write cell/lamp\"\n---\n{\"X000\":1,\"X003\":false,\"D0\":-7}",
                 "[io.remote]\nmodbus-tcp = \"127.0.0.1:502\"\nX010-X017 = \"discrete 1/0\"\nD0 = \"holding 1/100\"\n---\n[1, 2, 3]",
+            ],
+        ),
+        target(
+            "recording",
+            recording,
+            &[
+                "ms,device,value\n0,X000,1\n0,T0 contact,0\n0,T0,12\n500,D0.i32,-70000\n500,D4.f32,1.5\n900,K2M20,5\n",
+                "ms,device,value\r\n0,D10.str,\"\"\"AB\"\"\"\r\n0,C235,-7\r\n1000,M8000,1\r\n",
             ],
         ),
         target(
