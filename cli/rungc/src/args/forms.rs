@@ -83,10 +83,24 @@ pub struct PlcArgs {
     #[arg(long, value_parser = modbus_end, value_name = "ADDRESS", groups = ["line", "plc"])]
     pub modbus: Option<ModbusEnd>,
     /// Number of the Modbus slave.
-    #[arg(long, requires = "modbus", conflicts_with_all = ["port", "mc"], default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=247), value_name = "N")]
+    #[arg(
+        long,
+        requires = "modbus",
+        conflicts_with_all = ["port", "mc"],
+        default_value_t = 1,
+        value_parser = clap::value_parser!(u8).range(1..=247),
+        value_name = "N"
+    )]
     pub unit: u8,
     /// Parity and stop bits of the serial line to the Modbus slave.
-    #[arg(long, value_enum, requires = "modbus", conflicts_with_all = ["port", "mc"], default_value_t = RtuFormat::None1, value_name = "FORMAT")]
+    #[arg(
+        long,
+        value_enum,
+        requires = "modbus",
+        conflicts_with_all = ["port", "mc"],
+        default_value_t = RtuFormat::None1,
+        value_name = "FORMAT"
+    )]
     pub line_format: RtuFormat,
     /// Frame of the MC protocol: Ethernet modules of FX3 understand 1e; FX5, Q and L understand 3e.
     #[arg(long, value_enum, requires = "mc", default_value_t = McFrame::E1, value_name = "FRAME")]

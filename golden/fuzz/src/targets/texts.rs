@@ -127,7 +127,7 @@ fn target(name: &'static str, run: fn(&str), seeds: &[&str]) -> Target {
     }
 }
 
-pub(super) fn targets() -> [Target; 7] {
+pub(super) fn targets() -> [Target; 8] {
     [
         target(
             "fleet-file",

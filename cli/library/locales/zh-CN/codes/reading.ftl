@@ -24,9 +24,9 @@ E0005 = 字符串缺少结束的双引号
     .text = 字符串操作数在同一行内以 `"` 开头和结尾。
 
 # the text is not an FX instruction list
-# Programs are read as instruction lists of the FX family, as the editors' list export, or as projects of GX Developer and GX Works2. Instruction list and structured text of IEC 61131-3 are other languages: their addresses (`%IX0.0`), declarations (`VAR`) and statements (`IF … THEN`, `:=`) have no counterpart here. Export the compiled program as a list from the editor, or rewrite it.
+# Programs are read as instruction lists of the FX family, as structured text, as the editors' list export, or as projects of GX Developer and GX Works2. Instruction list of IEC 61131-3 is another language: its addresses (`%IX0.0`) and operators have no counterpart here. Structured text is read from files that end in `.st`, and where a text begins with `PROGRAM`.
 E0006 = 文本不是 FX 指令表
-    .text = 程序可以是 FX 系列的指令表、编程软件导出的指令表，或 GX Developer 和 GX Works2 的工程。IEC 61131-3 的指令表和结构化文本是另外的语言：其地址（`%IX0.0`）、声明（`VAR`）和语句（`IF … THEN`、`:=`）在这里没有对应的内容。从编程软件导出编译后程序的指令表，或改写程序。
+    .text = 程序可以是 FX 系列的指令表、结构化文本、编程软件导出的指令表，或 GX Developer 和 GX Works2 的工程。IEC 61131-3 的指令表是另外的语言：其地址（`%IX0.0`）和运算符在这里没有对应的内容。结构化文本从扩展名为 `.st` 的文件读取，或者文本以 `PROGRAM` 开头。
 
 # letter of another alphabet that looks Latin
 # Mnemonics and devices are written with the letters A to Z. Some Cyrillic and Greek letters look the same on screen but are different characters. The line is read as it looks, so this causes no further errors.

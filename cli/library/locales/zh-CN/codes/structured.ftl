@@ -19,7 +19,7 @@ E0203 = 赋值可能丢失值的一部分
     .text = 32 位的值放不进 16 位，REAL 带有小数。转换函数表示有意舍去：`DINT_TO_INT(x)`。
 
 # arguments that do not fit
-# An instruction is called with EN, its sources, and its destinations: `MOV(EN, S, D)`. Where the manual has a number n behind the destination, n stands before it: `BMOV(EN, S, n, D)`.
+# An instruction is called with EN, its sources, and its destinations: `MOV(EN, S, D)`. Where the manual has a number n after the destination, n stands before it: `BMOV(EN, S, n, D)`.
 E0204 = 参数不匹配
     .text = 调用指令时依次写 EN、源操作数和目标操作数：`MOV(EN, S, D)`。手册中目标操作数之后的个数 n 写在它前面：`BMOV(EN, S, n, D)`。
 
