@@ -18,15 +18,15 @@ pub(crate) fn is_named(name: &str) -> bool {
     ending.is_some_and(|ending| ending.eq_ignore_ascii_case("st"))
 }
 
-/// Returns true for structured text, by its name or by what it begins with and holds after its declarations: units of
-/// other languages have declarations, too.
+/// Returns true for structured text, by its name or by what it begins with and holds. Units of other languages have
+/// declarations, too, but no statements that end in `;`.
 pub(crate) fn detect(name: &str, text: &str) -> bool {
     const END_OF_DECLARATIONS: &str = "END_VAR";
     let body = || {
         let declared = text.to_ascii_uppercase().rfind(END_OF_DECLARATIONS);
         declared.map_or(text, |at| &text[at + END_OF_DECLARATIONS.len()..])
     };
-    is_named(name) || begins(text) && foreign::has_statements(body())
+    is_named(name) || begins(text) && foreign::has_statements(text) && body().contains(';')
 }
 
 /// Returns true if the first word that is not a comment begins a unit.

@@ -110,7 +110,7 @@ impl Language {
 pub(super) struct Pou {
     pub saved: Time,
     pub language: Language,
-    /// Start of its content: tokens of a ladder, length and UTF-16 of structured text.
+    /// Start of its content: tokens of a ladder, UTF-16 of structured text.
     pub start: usize,
     /// End of its content.
     pub end: usize,
@@ -133,7 +133,7 @@ impl Pou {
         let end = counted.checked_add(length)?;
         let head = match language {
             Language::Ladder => 16,
-            Language::StructuredText => 4,
+            Language::StructuredText => 8,
             _ => 0,
         };
         let start = fields.at() + head;

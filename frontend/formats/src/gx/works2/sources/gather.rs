@@ -188,8 +188,9 @@ impl Gathering<'_> {
                 (Body::Ladder(lines), damaged.map(|at| pou.start + at))
             }
             Language::StructuredText => {
-                let (text, damaged) = pou::text(content);
-                (Body::Text(text), damaged.map(|at| pou.start + at))
+                let counted = pou.start - pou::COUNT;
+                let (text, damaged) = pou::text(&part.bytes[counted..pou.end]);
+                (Body::Text(text), damaged.map(|at| counted + at))
             }
             Language::Picture => {
                 let mut fields = Fields::new(&part.bytes[..pou.end]);

@@ -119,10 +119,12 @@ impl Head {
 /// The head that the editor puts into a box of structured text in a ladder: the block returns while EN is off.
 const INLINE_END: &str = "IST HEADER END";
 
+/// Bytes of the number of units before structured text.
+pub(super) const COUNT: usize = 4;
+
 /// Structured text with line feeds, without the generated head of a box in a ladder; and the first byte of what is not
 /// text, if there is such. The content is a number of units of UTF-16, the last of which is 0, and the units.
 pub(super) fn text(content: &[u8]) -> (String, Option<usize>) {
-    const COUNT: usize = 4;
     let Some((&count, content)) = content.split_first_chunk::<COUNT>() else {
         return (String::new(), Some(0));
     };
