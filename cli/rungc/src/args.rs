@@ -218,9 +218,9 @@ pub enum Command {
 /// A program and its reader options.
 #[derive(Args, Clone, Debug)]
 pub struct Input {
-    /// Instruction list, list export (CSV), GX Developer project (folder or MAIN.wpg), GX Works2 project (.gxw) or
-    /// image of program memory; recognised by content, not by name. `-` is standard input. Default: the program of
-    /// rungc.toml.
+    /// Instruction list, structured text (.st), list export (CSV), GX Developer project (folder or MAIN.wpg), GX Works2
+    /// project (.gxw) or image of program memory; recognised by content, not by name. `-` is standard input. Default:
+    /// the program of rungc.toml.
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
     #[command(flatten)]
@@ -230,9 +230,10 @@ pub struct Input {
 /// Programs and their reader options.
 #[derive(Args, Debug)]
 pub struct Inputs {
-    /// Instruction lists, list exports (CSV), GX Developer projects (folder or MAIN.wpg), GX Works2 projects (.gxw),
-    /// PLCopen XML and images of program memory, recognised by content, not by name; folders, for all programs in them
-    /// and below (lists and drawn ladder as `.il`); `-` is standard input. Default: the program of rungc.toml.
+    /// Instruction lists, structured text (.st), list exports (CSV), GX Developer projects (folder or MAIN.wpg), GX
+    /// Works2 projects (.gxw), PLCopen XML and images of program memory, recognised by content, not by name; folders,
+    /// for all programs in them and below (lists and drawn ladder as `.il`); `-` is standard input. Default: the
+    /// program of rungc.toml.
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
     #[command(flatten)]

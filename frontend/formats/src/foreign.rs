@@ -16,11 +16,6 @@ enum Language {
     StructuredText,
 }
 
-/// Returns true if a text holds statements of structured text.
-pub(crate) fn has_statements(text: &str) -> bool {
-    language(text).is_some_and(|(language, _)| language == Language::StructuredText)
-}
-
 /// Says that a text is in another language, if it is, and gives a program without instructions.
 pub(crate) fn detect(name: &str, text: &str) -> Option<(Program, Diagnostic)> {
     let (language, span) = language(text)?;

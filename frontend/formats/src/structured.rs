@@ -1,6 +1,6 @@
 //! Recognition of structured text. Its instructions depend on the model, so they come when it is compiled for one.
 
-use crate::{Read, foreign};
+use crate::Read;
 use rungc_syntax::{Program, Source, SourceKind};
 
 /// Keywords that a text of declarations and statements begins with.
@@ -26,7 +26,7 @@ pub(crate) fn detect(name: &str, text: &str) -> bool {
         let declared = text.to_ascii_uppercase().rfind(END_OF_DECLARATIONS);
         declared.map_or(text, |at| &text[at + END_OF_DECLARATIONS.len()..])
     };
-    is_named(name) || begins(text) && foreign::has_statements(text) && body().contains(';')
+    is_named(name) || begins(text) && body().contains(';')
 }
 
 /// Returns true if the first word that is not a comment begins a unit.

@@ -2,14 +2,15 @@
 
 use rungc_analysis::check::check;
 use rungc_analysis::resolve::resolve;
-use rungc_frontend::{read_bytes, read_text};
+use rungc_frontend::{Read, read_bytes, read_text};
 use rungc_models::{Model, ModelId};
-use rungc_syntax::{Diagnostic, Source};
+use rungc_syntax::{Diagnostic, Source, SourceKind};
 use std::fmt::Write;
 
 /// All findings about a program, with its source.
 pub fn findings(model: ModelId, text: &str) -> (Source, Vec<Diagnostic>) {
-    if text.starts_with("PROGRAM ") {
+    let is_structured = |read: Read| matches!(read.program.kind, SourceKind::StructuredText);
+    if read_bytes("program", text.as_bytes()).is_ok_and(is_structured) {
         return findings_in_text(model, text);
     }
     let read = read_text("program", text);
