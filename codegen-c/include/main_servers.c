@@ -6,6 +6,9 @@
 /* Milliseconds after which a silent connection gives way to a new one if a server has no more room. */
 #define IDLE_MS (IDLE_LIMIT * 1000u)
 
+/* Milliseconds of silence after which an incomplete request ends its connection: what comes then begins another one. */
+#define REQUEST_MS (REQUEST_LIMIT * 1000u)
+
 /* Milliseconds for which input of a lost connection is dropped: closed with unread input, it would be reset, and its last answer lost. */
 #define LINGER_MS 1000u
 
@@ -338,6 +341,11 @@ static bool serve(PROGRAM_plc *plc, tcp_connection *connection)
         if (recv(connection->file, bytes, taken, 0) < 0) {
             open = false;
         }
+    }
+    if (rungc_is_receiving(&connection->parser) && poll_ms - connection->last_ms >= REQUEST_MS) {
+        connection->client->requests++;
+        connection->client->rejected++;
+        connection->is_lost = true;
     }
     return connection->is_lost ? drain(connection) : send_answers(connection) && open;
 }

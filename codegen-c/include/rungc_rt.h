@@ -1546,6 +1546,11 @@ rungc_feed_result rungc_feed(struct rungc_connection *connection,
                              struct rungc_reply *reply);
 
 /**
+ * Returns true if a request has begun over a connection, and is not whole.
+ */
+bool rungc_is_receiving(const struct rungc_connection *connection);
+
+/**
  * Returns true if a PLC of this family is in RUN, or goes there when the next scan begins, and stays there.
  */
 bool rungc_will_run(struct rungc_map *map, rungc_ports family);

@@ -8,7 +8,9 @@ use crate::{Options, template, text};
 use rungc_emit::storage::{Field, Storage};
 use rungc_emit::usage::{self, Host, Takes};
 use rungc_ir::Module;
-use rungc_rt::comm::service::{IDLE_S, MAX_CLIENTS, ServerProtocol, TABLE_HEADING, USUAL_CLIENTS};
+use rungc_rt::comm::service::{
+    IDLE_S, MAX_CLIENTS, REQUEST_S, ServerProtocol, TABLE_HEADING, USUAL_CLIENTS,
+};
 use rungc_syntax::DeviceClass;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -491,6 +493,7 @@ fn server_code(module: &Module, servers: bool, options: &str) -> String {
         .replace("MAX_CONNECTIONS", &MAX_CLIENTS.to_string())
         .replace("USUAL_CONNECTIONS", &USUAL_CLIENTS.to_string())
         .replace("IDLE_LIMIT", &IDLE_S.to_string())
+        .replace("REQUEST_LIMIT", &REQUEST_S.to_string())
         .replace("HEADING", TABLE_HEADING)
         .replace("ROW,", &format!("\"{TABLE_ROW}\\n\","))
         + &is_line(options)

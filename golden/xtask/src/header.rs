@@ -60,7 +60,7 @@ const NAMES: [(&str, &str); 46] = [
 
 /// What rungc.h defines, limits of hosts' servers, and numbers of modules: data for emitted code, not for the library's
 /// users.
-const LEFT_OUT: [&str; 12] = [
+const LEFT_OUT: [&str; 13] = [
     "Sys",
     "Timer",
     "Counter16",
@@ -68,6 +68,7 @@ const LEFT_OUT: [&str; 12] = [
     "USUAL_CLIENTS",
     "MAX_CLIENTS",
     "IDLE_S",
+    "REQUEST_S",
     "BOARD",
     "BOARDS",
     "ADAPTERS",

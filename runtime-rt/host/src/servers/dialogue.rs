@@ -37,6 +37,15 @@ impl Dialogue {
         Dialogue(Connection::new(service))
     }
 
+    /// A request that has begun and is not whole, as one that is rejected without an answer.
+    pub fn unfinished(&self) -> Option<Exchange> {
+        self.0.is_receiving().then(|| Exchange {
+            request: self.0.request().to_vec(),
+            rejected: true,
+            ..Exchange::default()
+        })
+    }
+
     /// Takes what has come, and carries out and answers each request in it.
     pub fn receive(&mut self, bytes: &[u8], map: &mut dyn Map) -> Reaction {
         let mut reaction = Reaction::default();

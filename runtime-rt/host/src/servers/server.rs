@@ -2,7 +2,7 @@
 
 use super::{Dialogue, Exchange};
 use rungc_rt::comm::Map;
-use rungc_rt::comm::service::{IDLE_S, Service, USUAL_CLIENTS};
+use rungc_rt::comm::service::{IDLE_S, REQUEST_S, Service, USUAL_CLIENTS};
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::time::{Duration, Instant};
@@ -14,6 +14,8 @@ pub struct Limits {
     pub clients: usize,
     /// Time after which a silent connection is idle, so that it gives way to a new one.
     pub idle: Duration,
+    /// Time of silence after which an incomplete request ends its connection.
+    pub request: Duration,
 }
 
 impl Default for Limits {
@@ -21,6 +23,7 @@ impl Default for Limits {
         Limits {
             clients: USUAL_CLIENTS,
             idle: Duration::from_secs(IDLE_S.into()),
+            request: Duration::from_secs(REQUEST_S.into()),
         }
     }
 }
@@ -111,7 +114,7 @@ impl Server {
     pub fn poll(&mut self, map: &mut dyn Map) -> Vec<(SocketAddr, ServerEvent)> {
         let mut events = Vec::new();
         self.connections
-            .retain_mut(|connection| connection.poll(map, &mut events));
+            .retain_mut(|connection| connection.poll(self.limits.request, map, &mut events));
         // A listener that fails (too many open files) is polled again after the next scan.
         while let Ok((stream, peer)) = self.listener.accept() {
             if self.has_room() {
@@ -162,8 +165,14 @@ impl Server {
 }
 
 impl Connection {
-    /// Does what there is to do; false when the connection is over.
-    fn poll(&mut self, map: &mut dyn Map, events: &mut Vec<(SocketAddr, ServerEvent)>) -> bool {
+    /// Does what there is to do; false when the connection is over. An incomplete request ends it after a time of
+    /// silence.
+    fn poll(
+        &mut self,
+        request: Duration,
+        map: &mut dyn Map,
+        events: &mut Vec<(SocketAddr, ServerEvent)>,
+    ) -> bool {
         let mut left = AT_ONCE;
         while left > 0 && !self.closes && !self.is_lost && self.to_send.len() < UNREAD {
             let mut bytes = [0; 512];
@@ -183,6 +192,13 @@ impl Connection {
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(_) => return false,
             }
+        }
+        if !self.is_lost
+            && self.last_received.elapsed() >= request
+            && let Some(rejected) = self.dialogue.unfinished()
+        {
+            events.push((self.peer, ServerEvent::Exchange(rejected)));
+            self.is_lost = true;
         }
         self.send() && (!self.is_lost || self.drain())
     }

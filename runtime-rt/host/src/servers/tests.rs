@@ -200,6 +200,7 @@ fn idle_connections_give_way() {
     let (mut server, address) = server(Limits {
         clients: 16,
         idle: Duration::ZERO,
+        ..Limits::default()
     });
     let mut plc = Registers::new();
     plc.words[100] = 7;
@@ -246,6 +247,30 @@ fn newcomers_are_refused_rather_than_regular_clients_thrown_out() {
     });
     let refusals = events.iter().filter(|event| **event == ServerEvent::Full);
     assert_eq!(refusals.count(), 1);
+}
+
+/// The next request of a client that comes back is not the rest of one that its converter lost.
+#[test]
+fn an_incomplete_request_ends_its_connection() {
+    let (mut server, address) = server(Limits {
+        request: Duration::from_millis(50),
+        ..Limits::default()
+    });
+    let mut plc = Registers::new();
+    let events = while_served(&mut server, &mut plc, || {
+        let mut stream = connect(address);
+        stream.write_all(&READ_D100[..5]).unwrap();
+        assert_eq!(stream.read(&mut [0]).unwrap(), 0);
+        // A silent connection without one goes on.
+        let mut stream = connect(address);
+        thread::sleep(Duration::from_millis(200));
+        stream.write_all(&READ_D100).unwrap();
+        assert_eq!(read(&mut stream, 11).len(), 11);
+    });
+    let ServerEvent::Exchange(rejected) = &events[0] else {
+        panic!("{events:?}");
+    };
+    assert!(rejected.rejected && rejected.request == READ_D100[..5]);
 }
 
 #[test]

@@ -44,6 +44,12 @@ pub extern "C" fn rungc_feed(
     result
 }
 
+/// Returns true if a request has begun over a connection, and is not whole.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_is_receiving(connection: &Connection) -> bool {
+    connection.is_receiving()
+}
+
 /// Returns true if a PLC of this family is in RUN, or goes there when the next scan begins, and stays there.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_will_run(map: &mut Map, family: Ports) -> bool {

@@ -27,6 +27,10 @@ pub const MAX_CLIENTS: usize = 256;
 /// not silent for as long.
 pub const IDLE_S: u32 = 60;
 
+/// Seconds of silence after which an incomplete request ends its connection: what comes then begins another one, and
+/// would be taken for the rest.
+pub const REQUEST_S: u32 = 5;
+
 /// The heading of a host's table of connections. Its columns are 21, 15, 16 and four times 8 characters wide, two
 /// apart.
 pub const TABLE_HEADING: &str = "server                 client           protocol          requests   answers  rejected     stops";
@@ -210,6 +214,11 @@ impl Connection {
     /// RUN or STOP, if the last request switches the PLC to it, by a command or by special relays.
     pub fn switched(&self) -> Option<bool> {
         (self.ran != self.runs).then_some(self.runs)
+    }
+
+    /// Returns true if a request has begun, and is not whole.
+    pub const fn is_receiving(&self) -> bool {
+        self.length > 0 && !self.over
     }
 
     /// Service of its server.
