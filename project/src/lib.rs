@@ -22,7 +22,7 @@ use encoding_rs::Encoding;
 use rungc_frontend::{LearnedCodes, Names, ReadOptions, Unsaved};
 use rungc_models::{ModelId, Variant};
 use rungc_syntax::{
-    DeviceClass, DeviceRun, Diagnostic, Diagnostics, Index, Source, Span, codes, inputs,
+    Device, DeviceClass, DeviceRun, Diagnostic, Diagnostics, Index, Source, Span, codes, inputs,
 };
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -86,6 +86,8 @@ pub struct Project {
     /// `[latched]`: devices that keep their value over power-off, in place of those of the model for each class that is
     /// named.
     pub latched: Vec<Range>,
+    /// `[labels]`: names of devices of the program.
+    pub labels: Vec<Label>,
     /// `[retain] file`: where `run` and `serve` keep latched devices.
     pub retain: Option<PathBuf>,
     /// `[retain] fault`: the bit that is on while they cannot be saved.
@@ -163,6 +165,17 @@ pub struct Bound {
     pub span: Span,
 }
 
+/// A name of a device, with the place of the device.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Label {
+    /// The name, such as `Axis1.Ready`.
+    pub name: String,
+    /// The device.
+    pub device: Device,
+    /// Position of the device in the file.
+    pub span: Span,
+}
+
 /// A range of devices with its place.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Range {
@@ -200,6 +213,16 @@ pub enum Error {
 }
 
 impl Range {
+    /// One device.
+    pub fn one(Device { class, number }: Device, span: Span) -> Self {
+        Range {
+            class,
+            first: number,
+            last: number,
+            span,
+        }
+    }
+
     /// The devices as a run.
     pub fn run(&self) -> DeviceRun {
         DeviceRun {

@@ -1,6 +1,6 @@
 //! Settings for a program: the devices that its PLC retains over power-off, and the ranges of its indexes.
 
-use crate::{Error, Project, Range};
+use crate::{Error, Label, Project, Range};
 use rungc_catalogue::Basic;
 use rungc_lower::compile::Bound;
 use rungc_models::Model;
@@ -25,7 +25,7 @@ impl Project {
     }
 
     /// Gives the program of `file` the latched devices and special modules of the settings and, if the project is about
-    /// it, the Modbus table and CANlink. What the model does not have is a mistake.
+    /// it, the Modbus table, CANlink and labels, which replace comments. What the model does not have is a mistake.
     pub fn complete(&self, file: &Path, program: &mut Program, model: &Model) -> Result<(), Error> {
         self.check_served(model)?;
         self.check_io(model)?;
@@ -38,6 +38,7 @@ impl Project {
                 self.exists(range, model)?;
             }
             self.add_external(program);
+            self.add_labels(program, model)?;
         }
         if self.latched.is_empty() {
             return Ok(());
@@ -51,6 +52,14 @@ impl Project {
         let others = others.into_iter().filter(|run| !named.contains(&run.class));
         let own = self.latched.iter().map(Range::run);
         parameters.latched = Some(own.chain(others).collect());
+        Ok(())
+    }
+
+    fn add_labels(&self, program: &mut Program, model: &Model) -> Result<(), Error> {
+        for Label { name, device, span } in &self.labels {
+            self.exists(&Range::one(*device, *span), model)?;
+            program.comments.insert(*device, name.clone());
+        }
         Ok(())
     }
 

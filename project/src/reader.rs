@@ -3,6 +3,7 @@
 mod canlink;
 mod check;
 mod io;
+mod labels;
 mod modbus;
 mod module;
 mod plcopen;
@@ -24,7 +25,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The tables, and their keys where these are fixed.
-const TABLES: [(&str, &[&str]); 18] = [
+const TABLES: [(&str, &[&str]); 19] = [
     (
         "project",
         &["program", "model", "name", "encoding", "compiled"],
@@ -36,6 +37,7 @@ const TABLES: [(&str, &[&str]); 18] = [
     ("tokens", &[]),
     ("index", &[]),
     ("latched", &[]),
+    ("labels", &[]),
     ("retain", &["file", "fault"]),
     ("plcopen", &["names", "free"]),
     ("serve", &[]),
@@ -194,6 +196,7 @@ impl Reader {
                 IO => self.io(table, project),
                 "verify" => self.verify(table, project),
                 "plcopen" => self.plcopen(table, project),
+                "labels" => self.labels(table, project),
                 CANLINK => self.canlink(at, table, project),
                 _ => self.latched(table, project),
             }
@@ -218,7 +221,12 @@ impl Reader {
         }
         let modbus = project.modbus.first().map(|row| row.span);
         let canlink = project.canlink.as_ref().map(|station| station.span);
-        for (table, at) in [("[[modbus]]", modbus), ("[canlink]", canlink)] {
+        let labels = project.labels.first().map(|label| label.span);
+        for (table, at) in [
+            ("[[modbus]]", modbus),
+            ("[canlink]", canlink),
+            ("[labels]", labels),
+        ] {
             if let (Some(at), None) = (at, &project.program) {
                 let message =
                     format!("`{table}` applies to the project's program, but there is none");
@@ -310,15 +318,12 @@ impl Reader {
     fn fault(&mut self, table: &DeTable<'_>) -> Option<DeviceRange> {
         let Named { text, span } = self.get(table, "fault")?;
         match device::device(&text) {
-            Some(Device {
-                class: class @ (DeviceClass::Y | DeviceClass::M | DeviceClass::S),
-                number,
-            }) => Some(DeviceRange {
-                class,
-                first: number,
-                last: number,
-                span,
-            }),
+            Some(
+                device @ Device {
+                    class: DeviceClass::Y | DeviceClass::M | DeviceClass::S,
+                    ..
+                },
+            ) => Some(DeviceRange::one(device, span)),
             _ => {
                 let message = format!("`{text}` is not a bit device Y, M or S");
                 self.wrong(span, message, "write for example `fault = \"M100\"`");

@@ -103,6 +103,10 @@ deny = []
 # [latched]
 # D = "D200-D511"
 
+# Names of devices, in place of their comments: in reports, views, tests and emitted code.
+# [labels]
+# "Axis1.Ready" = "M100"
+
 # Where `rungc run` and `rungc serve` keep latched devices from run to run.
 # [retain]
 # file = "machine.retain"

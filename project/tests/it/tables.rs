@@ -268,3 +268,60 @@ fn mistakes_in_a_network_of_canlink() {
     let messages: Vec<_> = diagnostics.iter().map(|d| d.message.clone()).collect();
     assert_eq!(messages, ["Mitsubishi FX3U has no CANlink"]);
 }
+
+/// A program with these labels, as this model completes it.
+fn labelled(labels: &str, model: ModelId) -> Result<rungc_syntax::Program, Error> {
+    let text = format!("[project]\nprogram = \"tables.rs\"\n[labels]\n{labels}");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it");
+    let project = Project::parse(&folder.join(rungc_project::FILE), &text)?;
+    let list = ";! M100 = at rest\n;! M101 = jammed\nLD M100\nOUT M101\nEND\n";
+    let mut program = rungc_frontend::read_text("p.il", list).program;
+    project.complete(&folder.join("tables.rs"), &mut program, Model::get(model))?;
+    Ok(program)
+}
+
+#[test]
+fn labels_name_devices_in_place_of_comments() {
+    let labels = "\"Axis1.Ready\" = \"M100\"\nAxis1.Position = \"d200\"\n\"起动\" = \"X000\"\n";
+    let program = labelled(labels, ModelId::Fx3u).unwrap();
+    let names: Vec<_> = program
+        .comments
+        .iter()
+        .map(|(device, name)| format!("{device} {name}"))
+        .collect();
+    let mut expected = [
+        "X000 起动",
+        "M100 Axis1.Ready",
+        "M101 jammed",
+        "D200 Axis1.Position",
+    ];
+    expected.sort_by_key(|row| names.iter().position(|name| name == row));
+    assert_eq!(names, expected);
+}
+
+#[test]
+fn mistakes_in_labels() {
+    let wrong = [
+        "Ready = \"M100\"\nBusy = \"M100\"",
+        "Ready = \"M100\"\nready = \"M101\"",
+        "M5 = \"M100\"",
+        "x0 = \"M100\"",
+        "\" \" = \"M100\"",
+        "\"a\\nb\" = \"M100\"",
+        "Ready = 100",
+        "Ready = \"M100.2\"",
+        "Ready = \"Q5\"",
+        "Ready = \"M100000\"",
+    ];
+    let found: Vec<_> = wrong
+        .into_iter()
+        .map(|labels| match labelled(labels, ModelId::Fx3u) {
+            Err(Error::Invalid { diagnostics, .. }) => {
+                let found = diagnostics.iter().map(|it| it.message.clone());
+                format!("{labels:?}: {}", found.collect::<Vec<_>>().join("; "))
+            }
+            other => panic!("{labels}: {other:?}"),
+        })
+        .collect();
+    insta::assert_snapshot!(found.join("\n"));
+}
