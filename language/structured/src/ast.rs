@@ -32,18 +32,25 @@ pub(crate) enum UnitKind {
 pub(crate) struct Unit {
     pub kind: UnitKind,
     pub name: Name,
+    /// Type of the result of a function.
+    pub returns: Option<TypeName>,
     pub sections: Vec<Section>,
     pub body: Body,
     /// First keyword.
     pub head: Span,
     /// False if the keyword at its end is missing.
     pub is_closed: bool,
+    /// True for a block of the library.
+    pub is_library: bool,
 }
 
 /// A structure as a data type.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Structure {
     pub name: Name,
+    pub members: Vec<Variable>,
+    /// False if `END_STRUCT` is missing.
+    pub is_closed: bool,
 }
 
 /// A section of declarations.

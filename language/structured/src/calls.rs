@@ -1,6 +1,6 @@
 //! Instructions that are called like functions: `MOV(EN, S, D)`.
 
-use crate::ast::{Arg, Expr, ExprKind};
+use crate::ast::{Arg, Expr, ExprKind, Op};
 use crate::conditions::Cond;
 use crate::emit::{Compiler, Made, fail};
 use crate::labels::Stored;
@@ -20,16 +20,22 @@ impl Compiler<'_> {
                 error.help("assign something to it, `NAME := VALUE;`, or call it, `NAME(…);`"),
             );
         };
+        if let (ExprKind::Member(..), Some(instance)) = (&of.kind, self.instance(of)) {
+            return self.called_block(&instance, args, expr);
+        }
         let Some(name) = of.name() else {
             return fail(codes::ST_UNSUPPORTED.at(of.span, "this cannot be called"));
         };
         let labels = Rc::clone(&self.labels);
         if let Some(label) = labels.get(name) {
             if let Stored::Instance(instance) = &label.stored {
-                return self.expand(instance, args, expr);
+                return self.called_block(instance, args, expr);
             }
             let what = format!("`{name}` is a label, which cannot be called");
             return fail(codes::ST_TYPE.at(of.span, what));
+        }
+        if let Some(function) = self.functions.get(&name.to_uppercase()).cloned() {
+            return self.call_routine(&function, args, expr);
         }
         let upper = name.to_ascii_uppercase();
         if let Some(arg) = args.iter().find_map(|arg| arg.name.as_ref()) {
@@ -93,7 +99,18 @@ impl Compiler<'_> {
             true => self.enabled(enable),
             false => Ok(None),
         };
-        for (arg, at) in args.iter().zip(order) {
+        // Z0 has to hold its value when the instruction runs.
+        let mut in_order: Vec<_> = args.iter().zip(order).collect();
+        in_order.sort_by_key(|(arg, _)| self.is_indexed(&arg.value));
+        if let [.., (one, _), (other, _)] = in_order.as_slice()
+            && self.is_indexed(&one.value)
+            && self.is_indexed(&other.value)
+        {
+            let what = "an instruction takes one element with a variable index";
+            let error = codes::ST_UNSUPPORTED.at(other.value.span, what);
+            return fail(error.other(one.value.span, "another one").help("assign one of them to a label"));
+        }
+        for (arg, at) in in_order {
             match self.argument(&arg.value, &params[at], found.form.wide) {
                 Ok((operand, ty)) => {
                     widths = ty.unwrap_or(widths);
@@ -161,7 +178,13 @@ impl Compiler<'_> {
 
     /// Returns true for an argument that nothing has to be computed for.
     fn is_plain(&self, expr: &Expr) -> bool {
-        matches!(self.constant(expr), Ok(Some(_))) || !matches!(self.place(expr), Ok(None))
+        matches!(self.constant(expr), Ok(Some(_)))
+            || !matches!(self.place(expr), Ok(None)) && !self.is_indexed(expr)
+    }
+
+    /// Returns true for an element by a variable index.
+    fn is_indexed(&self, expr: &Expr) -> bool {
+        matches!(self.place(expr), Ok(Some(place)) if place.is_variable())
     }
 
     /// Begins the rung of EN.
@@ -185,8 +208,13 @@ impl Compiler<'_> {
     ) -> Made<(Operand, Option<Ty>)> {
         let writes = is_output(param);
         if let Some(place) = self.place(expr)? {
-            let (span, kind) = (expr.span, place.operand);
-            return Ok((Operand { span, kind }, Some(place.ty)));
+            if place.is_variable() && place.ty.is_bit() {
+                let what = "a bit with a variable index cannot stand in an instruction";
+                let error = codes::ST_UNSUPPORTED.at(expr.span, what);
+                return fail(error.help("assign it to a label, or the label to it"));
+            }
+            let operand = self.reached(&place, expr.span)?;
+            return Ok((operand, Some(place.ty)));
         }
         if writes {
             let what = format!(
@@ -250,8 +278,11 @@ impl Compiler<'_> {
             Ty::Integer => Ty::Raw16,
             ty => ty,
         };
+        if ty == Ty::Time {
+            return self.timed_out(&enable.value, place.operand, device.value.span, &value.value);
+        }
         let stored = self.enabled(&enable.value)?;
-        let value = self.operand(&value.value, ty)?;
+        let value = self.kept_operand(&value.value, ty)?;
         let cond = match stored {
             Some(stored) => stored,
             None => self.condition(&enable.value)?,
@@ -262,6 +293,33 @@ impl Compiler<'_> {
             kind: place.operand,
         };
         self.push("OUT", [device, value]);
+        Ok(())
+    }
+
+    /// A timer for the quotient of two durations, which is computed while it runs, as in the blocks of GX Works2.
+    fn timed_out(
+        &mut self,
+        enable: &Expr,
+        timer: OperandKind,
+        span: rungc_syntax::Span,
+        value: &Expr,
+    ) -> Made<()> {
+        if !matches!(value.kind, ExprKind::Binary(Op::Div, ..)) {
+            let what = "the value of a timer counts its steps, and this is a TIME";
+            let error = codes::ST_TYPE.at(value.span, what);
+            return fail(error.help("divide it: `T#5s / T#100ms`"));
+        }
+        let cond = match self.enabled(enable)? {
+            Some(stored) => stored,
+            None => self.condition(enable)?,
+        };
+        self.load(&cond);
+        // What follows belongs to the rung.
+        self.is_powered = true;
+        let value = self.operand(value, Ty::Time);
+        self.is_powered = false;
+        let kind = timer;
+        self.push("OUT", [Operand { span, kind }, value?]);
         Ok(())
     }
 }
@@ -335,6 +393,6 @@ fn unknown(name: &str, of: &Expr) -> Diagnostic {
     let error = codes::ST_UNKNOWN_NAME.at(of.span, what);
     match did_you_mean(&upper, spellings.iter().map(String::as_str)) {
         Some(meant) if meant != upper => error.help(format!("did you mean `{meant}`?")),
-        _ => error.help("functions, and blocks of the library, are not compiled yet"),
+        _ => error.help("the page on structured text lists functions and blocks"),
     }
 }

@@ -1,11 +1,13 @@
 //! Conditions: from expressions to contacts, in the order in which GX Works2 puts them.
 
-use crate::ast::{Expr, ExprKind, Op};
+use crate::ast::{Arg, Expr, ExprKind, Op};
 use crate::emit::{Compiler, Made, OFF, ON, both, fail};
 use crate::literal::Const;
+use crate::places::{self, Place};
 use crate::types::Ty;
 use crate::values::is_edge;
-use rungc_syntax::{Operand, OperandKind, Span, codes};
+use crate::{convert, functions};
+use rungc_syntax::{Device, Operand, OperandKind, Span, codes};
 use std::rc::Rc;
 
 /// Operator between two conditions.
@@ -37,7 +39,21 @@ impl Cond {
         !matches!(self, Cond::Joined(..))
     }
 
-    fn joined(join: Join, a: Cond, b: Cond) -> Cond {
+    /// An open contact of a value in between.
+    pub(crate) fn contact(operand: Operand) -> Cond {
+        Cond::Contact {
+            operand,
+            is_closed: false,
+            is_name: false,
+        }
+    }
+
+    /// Both conditions.
+    pub(crate) fn both(a: Cond, b: Cond) -> Cond {
+        Cond::joined(Join::And, a, b)
+    }
+
+    pub(crate) fn joined(join: Join, a: Cond, b: Cond) -> Cond {
         Cond::Joined(join, Rc::new(a), Rc::new(b))
     }
 
@@ -134,19 +150,77 @@ impl Compiler<'_> {
                 Ok(if *op == Op::Eq { equal } else { unlike() })
             }
             ExprKind::Binary(op, left, right) if op.compares() => self.comparison(*op, left, right),
-            ExprKind::Call(of, args) if of.name().is_some_and(is_edge) => {
-                let inner = self.condition(&args[0].value)?;
-                let name = of.name().unwrap_or_default().to_ascii_uppercase();
-                self.load(&inner);
-                self.push(name, []);
-                self.in_bit(expr.span)
-            }
+            ExprKind::Call(of, args) => self.called(of.name().unwrap_or_default(), args, expr),
             _ => match self.place(expr)? {
+                Some(place) if place.is_variable() => self.bit_of(&place, expr.span),
                 Some(place) => Ok(contact(place.operand, place.is_name)),
                 None => {
                     fail(codes::ST_UNSUPPORTED.at(expr.span, "this condition is not compiled yet"))
                 }
             },
+        }
+    }
+
+    /// A call as a condition.
+    fn called(&mut self, name: &str, args: &[Arg], expr: &Expr) -> Made<Cond> {
+        if let Some(function) = self.functions.get(&name.to_uppercase()).cloned() {
+            let kind = self.result(&function, args, expr, None)?;
+            let result = Operand {
+                span: expr.span,
+                kind,
+            };
+            self.load(&Cond::contact(result));
+            return self.in_bit(expr.span);
+        }
+        if let Some((from, Ty::Bool, _)) = convert::find(name) {
+            let value = self.kept_operand(&args[0].value, from)?;
+            let zero = self.here(OperandKind::Decimal(0, None));
+            return self.compared(Op::Ne, &value, &zero, from);
+        }
+        let Some(arg) = args.first().filter(|_| is_edge(name)) else {
+            return fail(functions::unknown(name, expr));
+        };
+        let inner = self.condition(&arg.value)?;
+        self.load(&inner);
+        self.push(name.to_ascii_uppercase(), []);
+        self.in_bit(expr.span)
+    }
+
+    /// An element of an array of bits by a variable index: the lowest of sixteen bits that begin there.
+    pub(crate) fn bit_of(&mut self, place: &Place, span: Span) -> Made<Cond> {
+        let group = self.group_of(place, span)?;
+        self.reached(place, span)?;
+        let temporary = self.temporary(1)?;
+        let bit = self.here(OperandKind::Device(temporary, None));
+        let one = self.here(OperandKind::Hex(1, None));
+        let zero = self.here(OperandKind::Decimal(0, None));
+        self.always("WAND", [Operand { span, kind: group }, one, bit.clone()]);
+        Ok(Cond::Compare {
+            op: Op::Ne,
+            is_wide: false,
+            operands: [bit, zero],
+        })
+    }
+
+    /// Sixteen bits that begin with an element of an array of bits.
+    pub(crate) fn group_of(&self, place: &Place, span: Span) -> Made<OperandKind> {
+        let last = place.operand.device().map(|first| (first.class, first.number));
+        let last = last.map(|(class, number)| (class, number + place.reach + 15));
+        let group = places::group(place).filter(|_| place.ty == Ty::Bool);
+        match (group, last) {
+            (Some(group), Some((class, last))) if self.model.has(class, last) => Ok(group),
+            (Some(_), Some((class, _))) => {
+                let what = format!(
+                    "fewer than 15 devices {} follow this array of bits",
+                    class.prefix()
+                );
+                let error = codes::ST_NO_DEVICE.at(span, what);
+                fail(error.help("a variable index takes 16 bits from the element on: begin the array at a lower device"))
+            }
+            _ => {
+                let what = "a bit or contact with a variable index is compiled for BOOL alone";
+                fail(codes::ST_UNSUPPORTED.at(span, what))
+            }
         }
     }
 
@@ -167,39 +241,57 @@ impl Compiler<'_> {
 
     fn comparison(&mut self, op: Op, left: &Expr, right: &Expr) -> Made<Cond> {
         let (a, b) = both(self.ty(left), self.ty(right))?;
-        let span = left.span.to(right.span);
         let ty = a.common(b).unwrap_or(a);
         let ty = if ty == Ty::Integer { Ty::Int } else { ty };
-        if matches!(ty, Ty::Real | Ty::Fraction) {
-            let what = "comparing REAL values is not compiled yet";
-            let error = codes::ST_UNSUPPORTED.at(span, what);
-            return fail(error.help("call the instruction: `DECMP(EN, a, b, M0)`"));
+        let ty = if ty == Ty::Fraction { Ty::Real } else { ty };
+        let (a, b) = both(self.kept_operand(left, ty), self.kept_operand(right, ty))?;
+        self.compared(op, &a, &b, ty)
+    }
+
+    /// The comparison of two values.
+    pub(crate) fn compared(&mut self, op: Op, a: &Operand, b: &Operand, ty: Ty) -> Made<Cond> {
+        if ty == Ty::Real {
+            return self.compared_reals(op, a, b);
         }
         let orders = !matches!(op, Op::Eq | Op::Ne);
-        if orders && ty == Ty::Word {
-            let what = "the order of WORD values is not compiled yet";
-            let error = codes::ST_UNSUPPORTED.at(span, what);
-            return fail(error.help("compare INT values: `WORD_TO_INT(…)`"));
+        if orders && ty.is_unsigned() {
+            return Ok(self.unsigned(op, a, b, ty.is_wide()));
         }
-        let (a, b) = both(self.operand(left, ty), self.operand(right, ty))?;
-        if orders && ty == Ty::Dword {
-            return Ok(self.unsigned(op, &a, &b));
-        }
-        let is_wide = ty.is_wide();
         Ok(Cond::Compare {
             op,
-            is_wide,
-            operands: [a, b],
+            is_wide: ty.is_wide(),
+            operands: [a.clone(), b.clone()],
         })
+    }
+
+    /// Comparison of REAL values: DECMP sets the first of three bits for larger, the second for equal, the third for
+    /// smaller.
+    fn compared_reals(&mut self, op: Op, a: &Operand, b: &Operand) -> Made<Cond> {
+        let first = self.temporary_bits(3)?;
+        let bits = self.here(OperandKind::Device(first, None));
+        self.always("DECMP", [a.clone(), b.clone(), bits]);
+        let (at, is_closed) = match op {
+            Op::Gt => (0, false),
+            Op::Le => (0, true),
+            Op::Eq => (1, false),
+            Op::Ne => (1, true),
+            Op::Lt => (2, false),
+            _ => (2, true),
+        };
+        let number = first.number + at;
+        let bit = self.here(OperandKind::Device(Device { number, ..first }, None));
+        let cond = Cond::contact(bit);
+        Ok(if is_closed { cond.opposite() } else { cond })
     }
 
     /// Order of values without a sign, by instructions that compare values with a sign: as it stands where the signs
     /// are alike, else the other way round.
-    fn unsigned(&self, op: Op, a: &Operand, b: &Operand) -> Cond {
+    fn unsigned(&self, op: Op, a: &Operand, b: &Operand, is_wide: bool) -> Cond {
+        // The bits of a constant above the largest signed number are those of a negative one.
         let zero = || self.here(OperandKind::Decimal(0, None));
         let compare = |op, a: &Operand, b: Operand| Cond::Compare {
             op,
-            is_wide: true,
+            is_wide,
             operands: [a.clone(), b],
         };
         let signs = |of_a, of_b| {

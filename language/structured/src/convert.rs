@@ -13,6 +13,10 @@ pub(crate) enum Steps {
     Zero,
     /// The lower word.
     Low,
+    /// 1 or 0, from a condition.
+    FromBit,
+    /// A comparison with 0.
+    ToBit,
     /// An instruction of a REAL, with M8023 off or not used.
     Float(&'static str),
     /// The same from an integer, for which M8023 has to be off.
@@ -22,7 +26,7 @@ pub(crate) enum Steps {
 /// A conversion: from, into, and its steps.
 pub(crate) type Conversion = (Ty, Ty, Steps);
 
-static CONVERSIONS: [(&str, Conversion); 19] = [
+static CONVERSIONS: [(&str, Conversion); 33] = [
     ("INT_TO_DINT", (Ty::Int, Ty::Dint, Steps::Sign)),
     ("INT_TO_WORD", (Ty::Int, Ty::Word, Steps::Same)),
     ("WORD_TO_INT", (Ty::Word, Ty::Int, Steps::Same)),
@@ -38,11 +42,30 @@ static CONVERSIONS: [(&str, Conversion); 19] = [
     ("TIME_TO_DINT", (Ty::Time, Ty::Dint, Steps::Same)),
     ("DWORD_TO_TIME", (Ty::Dword, Ty::Time, Steps::Same)),
     ("TIME_TO_DWORD", (Ty::Time, Ty::Dword, Steps::Same)),
+    ("INT_TO_TIME", (Ty::Int, Ty::Time, Steps::Sign)),
+    ("WORD_TO_TIME", (Ty::Word, Ty::Time, Steps::Zero)),
+    ("TIME_TO_INT", (Ty::Time, Ty::Int, Steps::Low)),
+    ("TIME_TO_WORD", (Ty::Time, Ty::Word, Steps::Low)),
+    ("BOOL_TO_INT", (Ty::Bool, Ty::Int, Steps::FromBit)),
+    ("BOOL_TO_WORD", (Ty::Bool, Ty::Word, Steps::FromBit)),
+    ("BOOL_TO_DINT", (Ty::Bool, Ty::Dint, Steps::FromBit)),
+    ("BOOL_TO_DWORD", (Ty::Bool, Ty::Dword, Steps::FromBit)),
+    ("BOOL_TO_TIME", (Ty::Bool, Ty::Time, Steps::FromBit)),
+    ("INT_TO_BOOL", (Ty::Int, Ty::Bool, Steps::ToBit)),
+    ("WORD_TO_BOOL", (Ty::Word, Ty::Bool, Steps::ToBit)),
+    ("DINT_TO_BOOL", (Ty::Dint, Ty::Bool, Steps::ToBit)),
+    ("DWORD_TO_BOOL", (Ty::Dword, Ty::Bool, Steps::ToBit)),
+    ("TIME_TO_BOOL", (Ty::Time, Ty::Bool, Steps::ToBit)),
     ("INT_TO_REAL", (Ty::Int, Ty::Real, Steps::ToFloat("FLT"))),
     ("DINT_TO_REAL", (Ty::Dint, Ty::Real, Steps::ToFloat("DFLT"))),
     ("REAL_TO_INT", (Ty::Real, Ty::Int, Steps::Float("INT"))),
     ("REAL_TO_DINT", (Ty::Real, Ty::Dint, Steps::Float("DINT"))),
 ];
+
+/// Names of all conversions.
+pub(crate) fn names() -> impl Iterator<Item = &'static str> {
+    CONVERSIONS.iter().map(|(name, _)| *name)
+}
 
 /// The conversion of this name.
 pub(crate) fn find(name: &str) -> Option<Conversion> {

@@ -1,12 +1,16 @@
 //! Instructions as they are made, with the place of their statement.
 
 use crate::ast::Unit;
-use crate::labels::{Labels, Supply};
+use crate::labels::{Instance, Labels, Supply};
+use crate::routines::Routine;
 use crate::types::Ty;
+use rungc_models::Model;
 use rungc_syntax::{
     Device, DeviceClass, Diagnostic, Instr, Operand, OperandKind, Remarks, Span, codes,
 };
 use smol_str::{SmolStr, ToSmolStr};
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// Findings about one statement.
@@ -38,8 +42,11 @@ const MOST: usize = 200_000;
 /// The state of a compilation.
 pub(crate) struct Compiler<'a> {
     pub labels: Rc<Labels>,
-    /// All programs and blocks of the text.
+    /// All programs, functions and blocks of the text, and those of the library that it uses.
     pub units: &'a [Unit],
+    pub model: &'static Model,
+    /// Functions of the text, by their names in upper case.
+    pub functions: BTreeMap<String, Rc<Instance>>,
     pub supply: Supply,
     pub instrs: Vec<Instr>,
     pub found: Vec<Diagnostic>,
@@ -59,6 +66,16 @@ pub(crate) struct Compiler<'a> {
     pub statements: Vec<crate::Outcome>,
     /// Number of blocks that were expanded.
     pub expansions: usize,
+    /// Subroutines that are called, in the order of their first calls.
+    pub routines: Vec<Routine>,
+    /// The subroutine that is compiled.
+    pub routine: Option<usize>,
+    /// First use of an index register that variable indexes change.
+    pub registers: Cell<Option<Span>>,
+    /// First statement with a variable index.
+    pub indexes: Option<Span>,
+    /// Inputs and outputs whose values in the instance are needed.
+    pub own_used: RefCell<Vec<(Rc<Instance>, String, Span)>>,
 }
 
 pub(crate) const fn relay(number: u32) -> OperandKind {
@@ -145,12 +162,19 @@ impl Compiler<'_> {
 
     /// A temporary of this many words; 0 is a bit.
     pub(crate) fn temporary(&mut self, words: u32) -> Made<Device> {
-        let class = if words == 0 {
-            DeviceClass::M
-        } else {
-            DeviceClass::D
-        };
-        self.supply.take(class, words.max(1)).ok_or_else(|| {
+        match words {
+            0 => self.taken(DeviceClass::M, 1),
+            words => self.taken(DeviceClass::D, words),
+        }
+    }
+
+    /// The first of this many temporary bits.
+    pub(crate) fn temporary_bits(&mut self, count: u32) -> Made<Device> {
+        self.taken(DeviceClass::M, count)
+    }
+
+    fn taken(&mut self, class: DeviceClass, count: u32) -> Made<Device> {
+        self.supply.take(class, count).ok_or_else(|| {
             let what = format!(
                 "no device {} is left for a value in between",
                 class.prefix()

@@ -13,7 +13,7 @@ pub(crate) fn constant(labels: &Labels, expr: &Expr) -> Option<Literal> {
         ExprKind::Typed(text) => literal::typed(text),
         ExprKind::Name(name) => match labels.get(name) {
             Some(label) => match label.stored {
-                Stored::Constant(value) => Some((value, label.ty)),
+                Stored::Constant(value) => Some((value, label.of.plain()?)),
                 _ => None,
             },
             None if name.eq_ignore_ascii_case("TRUE") => Some((Const::Bool(true), Ty::Bool)),

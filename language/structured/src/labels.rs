@@ -1,11 +1,12 @@
 //! The labels of a program: their types, and their devices.
 
-use crate::ast::{Expr, ExprKind, Name, Section, TypeName, Unit, UnitKind, Variable};
+use crate::ast::{Expr, ExprKind, Name, Section, Unit, UnitKind, Variable};
 use crate::device::{self, Place};
+use crate::layout::{Structures, Type};
 use crate::literal::{Const, Literal, range};
 use crate::ranges::{Free, Ranges};
 use crate::types::{Fit, Ty};
-use crate::{Known, calls, convert, fold};
+use crate::{Known, blocks, calls, convert, fold};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, OperandKind, Span, codes};
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -18,6 +19,8 @@ const DEEPEST: usize = 8;
 #[derive(Clone, Debug)]
 pub(crate) enum Stored {
     Device(OperandKind),
+    /// Devices of an array or structure.
+    Area(Area),
     Constant(Const),
     /// Instance of a function block.
     Instance(Rc<Instance>),
@@ -25,20 +28,41 @@ pub(crate) enum Stored {
     Unknown,
 }
 
+/// First devices of an array or structure.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Area {
+    /// First of the bits.
+    pub bits: Option<Device>,
+    /// First of all else.
+    pub words: Option<Device>,
+    /// Members of a structure that have devices elsewhere, by their names in upper case.
+    pub members: BTreeMap<String, Device>,
+}
+
+/// Purpose of a label in its unit.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Role {
+    Own,
+    Input,
+    Output,
+    InOut,
+}
+
 /// A declared label.
 #[derive(Clone, Debug)]
 pub(crate) struct Label {
     pub name: String,
     pub span: Span,
-    pub ty: Ty,
-    /// First and last index of an array.
-    pub bounds: Option<(i64, i64)>,
+    pub of: Type,
+    pub role: Role,
     pub stored: Stored,
     /// True for a constant that is written in hexadecimal digits.
     pub is_hex: bool,
     /// False where the declaration states the device.
     pub is_chosen: bool,
     pub is_used: Cell<bool>,
+    /// Place of the first call that gives this output away: the label of the instance has no value then.
+    pub given: Cell<Option<Span>>,
 }
 
 /// Labels by their names in upper case.
@@ -49,10 +73,10 @@ pub(crate) struct Labels {
     pub global: Option<Rc<Labels>>,
 }
 
-/// An instance of a function block, with its labels.
+/// An instance of a function block, or a function, with its labels.
 #[derive(Clone, Debug)]
 pub(crate) struct Instance {
-    /// Position of the block among the units.
+    /// Position of the block or function among the units.
     pub unit: usize,
     pub own: Labels,
 }
@@ -62,11 +86,32 @@ pub(crate) struct Declaring<'d> {
     pub supply: &'d mut Supply,
     pub known: &'d Known,
     pub units: &'d [Unit],
+    pub structures: &'d Structures,
     pub found: &'d mut Vec<Diagnostic>,
     /// Names of the instances around, each with a dot.
     pub path: String,
     /// Number of instances that may still be declared.
     pub left: usize,
+}
+
+impl<'d> Declaring<'d> {
+    pub(crate) fn new(
+        supply: &'d mut Supply,
+        known: &'d Known,
+        units: &'d [Unit],
+        structures: &'d Structures,
+        found: &'d mut Vec<Diagnostic>,
+    ) -> Self {
+        Declaring {
+            supply,
+            known,
+            units,
+            structures,
+            found,
+            path: String::new(),
+            left: blocks::MOST,
+        }
+    }
 }
 
 /// Numbers that are left for labels and temporaries.
@@ -103,6 +148,17 @@ impl Supply {
             class: free.class,
             number,
         })
+    }
+
+    /// Leaves numbers free at the end of the bits: access to an element by a variable index takes 16 bits.
+    fn leave_bits(&mut self) {
+        self.m.leave(15);
+    }
+
+    /// Keeps all temporaries that were ever taken.
+    pub(crate) fn settle(&mut self) {
+        self.d.settle();
+        self.m.settle();
     }
 
     /// Frees the temporaries that were taken since `earlier`. Bits are used again only when few are left: a coil that
@@ -148,9 +204,15 @@ impl Labels {
 
     /// The label of this name.
     pub(crate) fn get(&self, name: &str) -> Option<&Label> {
-        let Some(label) = self.by_name.get(&name.to_uppercase()) else {
-            return self.global.as_ref()?.get(name);
-        };
+        match self.own(name) {
+            Some(label) => Some(label),
+            None => self.global.as_ref()?.get(name),
+        }
+    }
+
+    /// The label of this name, which is not global.
+    pub(crate) fn own(&self, name: &str) -> Option<&Label> {
+        let label = self.by_name.get(&name.to_uppercase())?;
         label.is_used.set(true);
         Some(label)
     }
@@ -165,7 +227,7 @@ impl Labels {
         self.by_name.values()
     }
 
-    /// Declares the labels of a section.
+    /// Declares the labels of a section of a program, or of global ones.
     pub(crate) fn declare(&mut self, section: &Section, cx: &mut Declaring) {
         if !matches!(
             section.keyword.text.as_str(),
@@ -176,47 +238,50 @@ impl Labels {
             cx.found
                 .push(error.help("a program declares its labels in `VAR` … `END_VAR`"));
         }
+        self.section(section, Role::Own, cx);
+    }
+
+    fn section(&mut self, section: &Section, role: Role, cx: &mut Declaring) {
         for variable in &section.variables {
             if !variable.is_ended {
                 let end = Span::new(variable.span.end, variable.span.end);
                 let error = codes::ST_SYNTAX.at(end, "a declaration ends in `;`");
                 cx.found.push(error.label("`;` is missing here"));
             }
-            self.variable(variable, section.is_constant, cx);
+            self.variable(variable, section.is_constant, role, cx);
         }
     }
 
-    fn variable(&mut self, variable: &Variable, is_constant: bool, cx: &mut Declaring) {
+    fn variable(
+        &mut self,
+        variable: &Variable,
+        is_constant: bool,
+        role: Role,
+        cx: &mut Declaring,
+    ) {
         if let Some(unit) = block_of(variable, cx.units) {
             for name in &variable.names {
                 self.instance(name, unit, cx);
             }
             return;
         }
-        let of = self.type_of(&variable.of, cx.found);
+        let of = self.type_of(&variable.of, cx.structures, cx.found);
         let stated = variable.place.as_ref().map(|place| stated(place, cx.found));
         for name in &variable.names {
-            if let Some(error) = self.clash(name) {
+            if let Some(error) = self.clash(name, role) {
                 cx.found.push(error);
                 continue;
             }
-            let (ty, bounds) = of.unwrap_or((Ty::Raw16, None));
-            let mut label = Label {
-                name: name.text.to_string(),
-                span: name.span,
-                ty,
-                bounds,
-                stored: Stored::Unknown,
-                is_hex: false,
-                is_chosen: variable.place.is_none(),
-                is_used: Cell::new(of.is_none()),
-            };
-            if of.is_some() {
+            let mut label = Label::new(name, of.clone().unwrap_or(Type::Plain(Ty::Raw16)), role);
+            label.is_chosen = variable.place.is_none();
+            label.is_used = Cell::new(of.is_none());
+            if let Some(of) = &of {
                 let stored = match (is_constant, &stated) {
-                    (true, _) => self.constant(variable, name, ty),
-                    (false, Some(place)) => place.clone().map_or(Ok(Stored::Unknown), |place| {
-                        suits(place, ty, variable).map(Stored::Device)
-                    }),
+                    (true, _) => self.constant(variable, name, of),
+                    (false, Some(Some(place))) => suits(place.clone(), of, variable),
+                    (false, Some(None)) => Ok(Stored::Unknown),
+                    // A reference has no device of its own.
+                    (false, None) if role == Role::InOut => Ok(Stored::Unknown),
                     (false, None) => chosen(&label, cx, variable),
                 };
                 match stored {
@@ -224,7 +289,7 @@ impl Labels {
                     Err(error) => cx.found.push(*error),
                 }
                 if let (false, Some(initial)) = (is_constant, &variable.initial) {
-                    cx.found.extend(self.initial(initial));
+                    cx.found.extend(initial_value(self, initial));
                 }
             }
             label.is_hex = is_constant
@@ -232,17 +297,16 @@ impl Labels {
                     .initial
                     .as_ref()
                     .is_some_and(|initial| fold::is_hexadecimal(self, initial));
-            self.by_name.insert(name.text.to_uppercase(), label);
+            self.insert(label);
         }
     }
 
     /// Declares an instance of a function block, with its labels.
     fn instance(&mut self, name: &Name, unit: usize, cx: &mut Declaring) {
-        if let Some(error) = self.clash(name) {
+        if let Some(error) = self.clash(name, Role::Own) {
             cx.found.push(error);
             return;
         }
-        let block = &cx.units[unit];
         let outer = cx.path.clone();
         if outer.matches('.').count() >= DEEPEST || cx.left == 0 {
             let what = format!(
@@ -254,89 +318,23 @@ impl Labels {
         }
         cx.left -= 1;
         cx.path = format!("{outer}{}.", name.text);
-        let mut own = Labels::default();
-        let before = cx.found.len();
-        let has_storage = |section: &&Section| {
-            !matches!(
-                section.keyword.text.as_str(),
-                "VAR_INPUT" | "VAR_OUTPUT" | "VAR_IN_OUT"
-            )
-        };
-        for section in block.sections.iter().filter(has_storage) {
-            own.declare(section, cx);
-        }
+        let instance = Instance::declared(unit, cx);
         cx.path = outer;
-        // Each instance would report the same.
-        let mut kept = cx.found.split_off(before);
-        kept.retain(|one| !cx.found.contains(one));
-        cx.found.append(&mut kept);
-        let instance = Rc::new(Instance { unit, own });
-        self.insert(Label {
-            name: name.text.to_string(),
-            span: name.span,
-            ty: Ty::Raw16,
-            bounds: None,
-            stored: Stored::Instance(instance),
-            is_hex: false,
-            is_chosen: true,
-            is_used: Cell::new(false),
-        });
+        let mut label = Label::new(name, Type::Plain(Ty::Raw16), Role::Own);
+        label.stored = Stored::Instance(Rc::new(instance));
+        self.insert(label);
     }
 
-    /// The type of a declaration; an error is reported.
-    pub(crate) fn type_of(
-        &self,
-        of: &TypeName,
-        found: &mut Vec<Diagnostic>,
-    ) -> Option<(Ty, Option<(i64, i64)>)> {
-        let name = of.name.text.as_str();
-        let Some(ty) = Ty::named(name) else {
-            let what = match name.to_ascii_uppercase().as_str() {
-                "STRING" | "WSTRING" => "labels of type STRING are not compiled yet".to_owned(),
-                "SINT" | "LINT" | "USINT" | "UINT" | "UDINT" | "LREAL" | "BYTE" | "LWORD"
-                | "DATE" => {
-                    format!("FX has no type {name}")
-                }
-                _ => format!(
-                    "`{name}` is not a type; structures and blocks of the library are not compiled yet"
-                ),
-            };
-            let error = codes::ST_UNSUPPORTED.at(of.name.span, what);
-            found.push(
-                error.help("types are BOOL, INT, WORD, DINT, DWORD, REAL, TIME, TIMER and COUNTER"),
-            );
-            return None;
-        };
-        match of.bounds.as_slice() {
-            [] => Some((ty, None)),
-            [(first, last)] => {
-                let value = |bound: &Expr| match fold::constant(self, bound) {
-                    Some((Const::Int(value), _)) => Some(value),
-                    _ => None,
-                };
-                let bounds = value(first)
-                    .zip(value(last))
-                    .filter(|(first, last)| first <= last);
-                if bounds.is_none() {
-                    let span = first.span.to(last.span);
-                    found.push(codes::ST_LITERAL.at(span, "these are not the bounds of an array"));
-                }
-                bounds.map(|bounds| (ty, Some(bounds)))
-            }
-            _ => {
-                let what = "arrays of several dimensions are not compiled yet";
-                found.push(codes::ST_UNSUPPORTED.at(of.span, what));
-                None
-            }
-        }
-    }
-
-    fn clash(&self, name: &Name) -> Option<Diagnostic> {
+    fn clash(&self, name: &Name, role: Role) -> Option<Diagnostic> {
         let text = name.text.as_str();
         if let Some(first) = self.by_name.get(&text.to_uppercase()) {
             let error =
                 codes::ST_DECLARED_TWICE.at(name.span, format!("`{text}` is declared twice"));
             return Some(error.label("again here").other(first.span, "first here"));
+        }
+        // Calls name inputs and outputs.
+        if role != Role::Own {
+            return None;
         }
         let is_device = device::find(text).is_some() || device::constant(text).is_some();
         let what = if is_device {
@@ -355,8 +353,12 @@ impl Labels {
         &self,
         variable: &Variable,
         name: &Name,
-        ty: Ty,
+        of: &Type,
     ) -> Result<Stored, Box<Diagnostic>> {
+        let Some(ty) = of.plain() else {
+            let what = "arrays and structures that are constant are not compiled yet";
+            return Err(codes::ST_UNSUPPORTED.at(variable.span, what).into());
+        };
         let Some(initial) = &variable.initial else {
             let what = format!("the constant `{}` has no value", name.text);
             return Err(codes::ST_LITERAL
@@ -370,20 +372,71 @@ impl Labels {
         };
         value_in((value, of), ty, initial.span).map(Stored::Constant)
     }
+}
 
-    /// An initial value other than 0 is not compiled for FX.
-    fn initial(&self, initial: &Expr) -> Option<Diagnostic> {
-        let is_zero = match fold::constant(self, initial) {
-            _ if initial.kind == ExprKind::Initial(true) => true,
-            Some((Const::Int(0) | Const::Bool(false), _)) => true,
-            Some((Const::Real(value), _)) => value == 0.0,
-            _ => false,
-        };
-        let what = "GX Works2 compiles no initial values for FX";
-        let error = || codes::ST_UNSUPPORTED.at(initial.span, what);
-        let help = "assign it in the first scan: `IF M8002 THEN … END_IF;`";
-        (!is_zero).then(|| error().help(help))
+impl Label {
+    fn new(name: &Name, of: Type, role: Role) -> Label {
+        Label {
+            name: name.text.to_string(),
+            span: name.span,
+            of,
+            role,
+            stored: Stored::Unknown,
+            is_hex: false,
+            is_chosen: true,
+            is_used: Cell::new(false),
+            given: Cell::new(None),
+        }
     }
+}
+
+impl Instance {
+    /// An instance of a block, or a function with its result, with devices for its labels.
+    pub(crate) fn declared(unit: usize, cx: &mut Declaring) -> Instance {
+        let block = &cx.units[unit];
+        let mut own = Labels::default();
+        let before = cx.found.len();
+        for section in &block.sections {
+            let role = match section.keyword.text.as_str() {
+                "VAR_INPUT" => Role::Input,
+                "VAR_OUTPUT" => Role::Output,
+                "VAR_IN_OUT" => Role::InOut,
+                "VAR_EXTERNAL" => continue,
+                _ => Role::Own,
+            };
+            own.section(section, role, cx);
+        }
+        if let Some(of) = &block.returns {
+            let result = Variable {
+                names: vec![block.name.clone()],
+                place: None,
+                of: of.clone(),
+                initial: None,
+                is_ended: true,
+                span: of.span,
+            };
+            own.variable(&result, false, Role::Own, cx);
+        }
+        // Each instance would report the same.
+        let mut kept = cx.found.split_off(before);
+        kept.retain(|one| !cx.found.contains(one));
+        cx.found.append(&mut kept);
+        Instance { unit, own }
+    }
+}
+
+/// An initial value other than 0 is not compiled for FX.
+pub(crate) fn initial_value(labels: &Labels, initial: &Expr) -> Option<Diagnostic> {
+    let is_zero = match fold::constant(labels, initial) {
+        _ if initial.kind == ExprKind::Initial(true) => true,
+        Some((Const::Int(0) | Const::Bool(false), _)) => true,
+        Some((Const::Real(value), _)) => value == 0.0,
+        _ => false,
+    };
+    let what = "GX Works2 compiles no initial values for FX";
+    let error = || codes::ST_UNSUPPORTED.at(initial.span, what);
+    let help = "assign it in the first scan: `IF M8002 THEN … END_IF;`";
+    (!is_zero).then(|| error().help(help))
 }
 
 /// A constant in a type.
@@ -435,26 +488,43 @@ fn stated(place: &Expr, found: &mut Vec<Diagnostic>) -> Option<Place> {
     device
 }
 
-/// The device of a label, if it suits the type.
+/// The device of a label, or the first one of an array, if it suits the type.
 fn suits(
     (operand, of): Place,
-    ty: Ty,
+    label: &Type,
     variable: &Variable,
-) -> Result<OperandKind, Box<Diagnostic>> {
+) -> Result<Stored, Box<Diagnostic>> {
+    let span = variable
+        .place
+        .as_ref()
+        .map_or(variable.span, |place| place.span);
+    let Some(ty) = label.element() else {
+        let what = "a structure gets its devices by itself";
+        let error = codes::ST_UNSUPPORTED.at(span, what);
+        return Err(error.help("leave out `AT`").into());
+    };
     let is_bit_device = of == Ty::Bool;
     let suits = match ty {
         Ty::Bool => of.is_bit(),
         Ty::Timer => of.is_bit() && !is_bit_device,
         _ => !is_bit_device,
     };
-    if suits {
-        return Ok(operand);
+    match (&operand, label.plain()) {
+        (_, Some(_)) if suits => return Ok(Stored::Device(operand)),
+        (OperandKind::Device(first, None), None) if suits => {
+            let is_bits = ty == Ty::Bool;
+            return Ok(Stored::Area(Area {
+                bits: is_bits.then_some(*first),
+                words: (!is_bits).then_some(*first),
+                members: BTreeMap::new(),
+            }));
+        }
+        _ => {}
     }
-    let span = variable
-        .place
-        .as_ref()
-        .map_or(variable.span, |place| place.span);
-    let what = format!("`{operand}` cannot hold {ty}");
+    let what = match label.plain() {
+        Some(ty) => format!("`{operand}` cannot hold {ty}"),
+        None => format!("an array cannot begin at `{operand}`"),
+    };
     let help = match ty {
         Ty::Bool => "a BOOL is an X, Y, M, S, or a bit of a word",
         Ty::Timer => "a TIMER is a T, a COUNTER a C",
@@ -463,36 +533,49 @@ fn suits(
     Err(codes::ST_NO_DEVICE.at(span, what).help(help).into())
 }
 
-/// A device for a label that states none.
+/// Devices for a label that states none.
 fn chosen(
     label: &Label,
     cx: &mut Declaring,
     variable: &Variable,
 ) -> Result<Stored, Box<Diagnostic>> {
-    let elements = label
-        .bounds
-        .map_or(1, |(first, last)| last.abs_diff(first).saturating_add(1));
+    let name = format!("{}{}", cx.path, label.name).to_uppercase();
+    let size = label.of.size();
     let is_counter = variable.of.name.text.eq_ignore_ascii_case("COUNTER");
-    let (class, each) = match label.ty {
-        Ty::Bool => (DeviceClass::M, 1),
-        Ty::Timer if is_counter => (DeviceClass::C, 1),
-        Ty::Timer => (DeviceClass::T, 1),
-        ty => (DeviceClass::D, ty.words()),
+    let class = match label.of.element() {
+        Some(Ty::Timer) if is_counter => DeviceClass::C,
+        Some(Ty::Timer) => DeviceClass::T,
+        _ => DeviceClass::D,
     };
-    let count = elements.saturating_mul(each.into());
-    let device = match cx
-        .known
-        .get(&format!("{}{}", cx.path, label.name).to_uppercase())
-    {
-        Some(device) => Some(*device),
-        None => u32::try_from(count)
-            .ok()
-            .and_then(|count| cx.supply.take(class, count)),
+    let mut area = Area::default();
+    if let Type::Structure(structure) = &label.of {
+        let members = structure.members.iter().filter_map(|member| {
+            let member = member.name.to_uppercase();
+            let device = cx.known.get(&format!("{name}.{member}"))?;
+            Some((member, *device))
+        });
+        area.members = members.collect();
+        if area.members.len() == structure.members.len() {
+            return Ok(Stored::Area(area));
+        }
+    }
+    let known = cx.known.get(&name).copied();
+    if size.bits > 1 {
+        cx.supply.leave_bits();
+    }
+    let mut part = |class: DeviceClass, count| match known {
+        _ if count == 0 => Ok(None),
+        Some(known) if label.of.element().is_some() => Ok(Some(known)),
+        _ => cx.supply.take(class, count).map(Some).ok_or_else(|| {
+            let what = format!("no device {} is left for `{}`", class.prefix(), label.name);
+            let error = codes::ST_NO_DEVICE.at(label.span, what);
+            error.help("state a device with `AT`, or shorten the arrays")
+        }),
     };
-    let device = device.ok_or_else(|| {
-        let what = format!("no device {} is left for `{}`", class.prefix(), label.name);
-        let error = codes::ST_NO_DEVICE.at(label.span, what);
-        error.help("state a device with `AT`, or shorten the arrays")
-    })?;
-    Ok(Stored::Device(OperandKind::Device(device, None)))
+    area.words = part(class, size.words)?;
+    area.bits = part(DeviceClass::M, size.bits)?;
+    Ok(match (&label.of, area.words.or(area.bits)) {
+        (Type::Plain(_), Some(device)) => Stored::Device(OperandKind::Device(device, None)),
+        _ => Stored::Area(area),
+    })
 }

@@ -4,6 +4,7 @@
 //! Start reading at [`compile`]. The steps are those that the compiler of GX Works2 takes where they are known; the
 //! page on structured text names the others.
 
+mod assign;
 mod ast;
 mod blocks;
 mod calls;
@@ -12,10 +13,15 @@ mod convert;
 mod device;
 mod emit;
 mod fold;
+mod functions;
 mod labels;
+mod layout;
+mod library;
 mod literal;
 mod parse;
+mod places;
 mod ranges;
+mod routines;
 mod shape;
 mod statements;
 mod token;
@@ -24,11 +30,13 @@ mod values;
 
 use ast::{Text, Unit, UnitKind};
 use emit::Compiler;
-use labels::{Declaring, Labels, Stored, Supply};
+use labels::{Declaring, Instance, Labels, Stored, Supply};
+use layout::Structures;
 use rungc_models::Model;
 use rungc_syntax::{
     Device, Diagnostics, Instr, OperandKind, Program, Severity, SourceKind, Span, codes,
 };
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::mem;
 use std::rc::Rc;
@@ -128,8 +136,9 @@ fn parsed(text: &str, found: &mut Vec<rungc_syntax::Diagnostic>) -> Option<Text>
     if found.len() > before {
         return None;
     }
-    let tree = parse::parse(&tokens, found);
+    let mut tree = parse::parse(&tokens, found);
     shape::endings(&tree, found);
+    library::add(&mut tree, &tokens);
     Some(tree)
 }
 
@@ -143,16 +152,18 @@ fn compiled(
     let program = only_program(&tree, found)?;
     let mut supply = Supply::new(ranges::of(model));
     supply.avoid(known);
-    let mut cx = Declaring {
-        supply: &mut supply,
-        known,
-        units: &tree.units,
-        found,
-        path: String::new(),
-        left: blocks::MOST,
+    let mut constants = Labels::default();
+    let none = Structures::default();
+    let structures = {
+        let mut cx = Declaring::new(&mut supply, known, &tree.units, &none, found);
+        for section in tree.globals.iter().filter(|section| section.is_constant) {
+            constants.declare(section, &mut cx);
+        }
+        Structures::new(&tree.structures, &constants, found)
     };
-    let mut global = Labels::default();
-    for section in &tree.globals {
+    let mut cx = Declaring::new(&mut supply, known, &tree.units, &structures, found);
+    let mut global = constants;
+    for section in tree.globals.iter().filter(|section| !section.is_constant) {
         global.declare(section, &mut cx);
     }
     let global = Rc::new(global);
@@ -160,10 +171,13 @@ fn compiled(
     for section in &program.sections {
         labels.declare(section, &mut cx);
     }
+    let functions = functions_of(&global, &mut cx);
     let labels = Rc::new(labels);
     let mut compiler = Compiler {
         labels: Rc::clone(&labels),
         units: &tree.units,
+        model,
+        functions,
         supply,
         instrs: Vec::new(),
         found: Vec::new(),
@@ -175,15 +189,25 @@ fn compiled(
         end: None,
         statements: Vec::new(),
         expansions: 0,
+        routines: Vec::new(),
+        routine: None,
+        registers: Cell::new(None),
+        indexes: None,
+        own_used: RefCell::default(),
     };
     compiler.body(&program.body);
     compiler.span = program.name.span;
     if let Some(end) = compiler.end {
         compiler.label(end);
     }
-    for last in ["FEND", "NOP", "END"] {
+    compiler.push("FEND", []);
+    compiler.routines();
+    compiler.span = program.name.span;
+    for last in ["NOP", "END"] {
         compiler.push(last, []);
     }
+    compiler.check_instances();
+    compiler.check_registers();
     let (instrs, more) = (compiler.instrs, compiler.found);
     let statements = compiler.statements;
     // A block that is expanded several times reports its mistakes each time.
@@ -206,21 +230,6 @@ fn compiled(
 
 /// The program of a text; what else is in it and is not compiled is reported.
 fn only_program<'t>(tree: &'t Text, found: &mut Vec<rungc_syntax::Diagnostic>) -> Option<&'t Unit> {
-    for structure in &tree.structures {
-        let what = format!(
-            "the structure `{}` is not compiled yet",
-            structure.name.text
-        );
-        found.push(codes::ST_UNSUPPORTED.at(structure.name.span, what));
-    }
-    let functions = tree
-        .units
-        .iter()
-        .filter(|unit| unit.kind == UnitKind::Function);
-    for unit in functions {
-        let span = unit.head.to(unit.name.span);
-        found.push(codes::ST_UNSUPPORTED.at(span, "functions of your own are not compiled yet"));
-    }
     let mut programs = tree
         .units
         .iter()
@@ -239,6 +248,37 @@ fn only_program<'t>(tree: &'t Text, found: &mut Vec<rungc_syntax::Diagnostic>) -
         found.push(error.other(program.name.span, "the first program"));
     }
     Some(program)
+}
+
+/// The functions of a text, by their names in upper case, with devices for their labels.
+fn functions_of(global: &Labels, cx: &mut Declaring) -> BTreeMap<String, Rc<Instance>> {
+    let mut functions = BTreeMap::new();
+    let units = cx.units.iter().enumerate();
+    for (at, unit) in units.filter(|(_, unit)| unit.kind == UnitKind::Function) {
+        let name = &unit.name;
+        if unit.returns.is_none() {
+            let what = format!("the function `{}` has no result", name.text);
+            let error = codes::ST_SYNTAX.at(name.span, what);
+            cx.found.push(error.help(format!("write `FUNCTION {} : INT`", name.text)));
+            continue;
+        }
+        if let Some(other) = global.get(&name.text) {
+            let what = format!("`{}` is declared twice", name.text);
+            let error = codes::ST_DECLARED_TWICE.at(name.span, what);
+            cx.found.push(error.label("again here").other(other.span, "first here"));
+        }
+        cx.path = format!("{}.", name.text);
+        let instance = Instance::declared(at, cx);
+        cx.path.clear();
+        let before = functions.insert(name.text.to_uppercase(), Rc::new(instance));
+        if let Some(before) = before {
+            let first = cx.units[before.unit].name.span;
+            let what = format!("`{}` is declared twice", name.text);
+            let error = codes::ST_DECLARED_TWICE.at(name.span, what);
+            cx.found.push(error.label("again here").other(first, "first here"));
+        }
+    }
+    functions
 }
 
 /// Returns true if an error is among some findings.
@@ -268,7 +308,7 @@ fn comments<'l>(all: impl IntoIterator<Item = &'l Labels>) -> BTreeMap<Device, S
 
 /// Adds those of some labels, whose names begin with `path`.
 fn add_comments(labels: &Labels, path: &str, comments: &mut BTreeMap<Device, String>) {
-    for label in labels.all().filter(|label| label.bounds.is_none()) {
+    for label in labels.all() {
         let name = format!("{path}{}", label.name);
         match &label.stored {
             Stored::Device(OperandKind::Device(device, None)) => {
@@ -276,6 +316,11 @@ fn add_comments(labels: &Labels, path: &str, comments: &mut BTreeMap<Device, Str
             }
             Stored::Instance(instance) => {
                 add_comments(&instance.own, &format!("{name}."), comments);
+            }
+            Stored::Area(_) => {
+                for (member, device) in places::members(label) {
+                    comments.entry(device).or_insert(format!("{name}{member}"));
+                }
             }
             _ => {}
         }

@@ -60,6 +60,10 @@ pub(crate) struct Free {
     first: u32,
     /// One past the last.
     end: u32,
+    /// One past the last of the range.
+    limit: u32,
+    /// Lowest value of `end`.
+    lowest: u32,
 }
 
 impl Free {
@@ -68,6 +72,8 @@ impl Free {
             class,
             first,
             end: last + 1,
+            limit: last + 1,
+            lowest: last + 1,
         }
     }
 
@@ -78,6 +84,7 @@ impl Free {
             .checked_sub(count)
             .filter(|first| *first >= self.first)?;
         self.end = first;
+        self.lowest = self.lowest.min(first);
         Some(first)
     }
 
@@ -89,6 +96,16 @@ impl Free {
     /// Returns to an earlier state: what was taken since is free again.
     pub(crate) fn release(&mut self, earlier: &Free) {
         self.end = earlier.end;
+    }
+
+    /// Leaves this many numbers at the end of the range.
+    pub(crate) fn leave(&mut self, count: u32) {
+        self.end = self.end.min(self.limit.saturating_sub(count)).max(self.first);
+    }
+
+    /// Leaves out all numbers that were ever taken.
+    pub(crate) fn settle(&mut self) {
+        self.end = self.end.min(self.lowest);
     }
 
     /// Leaves out a number that is taken already, and those above it.

@@ -77,6 +77,10 @@ pub(crate) fn endings(text: &Text, found: &mut Vec<Diagnostic>) {
             .map_or(section.keyword.span, |last| last.span);
         found.push(missing("END_VAR", last, section.keyword.span));
     }
+    for one in text.structures.iter().filter(|one| !one.is_closed) {
+        let last = one.members.last().map_or(one.name.span, |last| last.span);
+        found.push(missing("END_STRUCT", last, one.name.span));
+    }
     for unit in &text.units {
         body(&unit.body, found);
         if !unit.is_closed {

@@ -7,7 +7,8 @@ use crate::emit::{Compiler, Made, both, fail};
 use crate::fold;
 use crate::literal::Const;
 use crate::types::Ty;
-use rungc_syntax::{Device, DeviceClass, Operand, OperandKind, Span, codes};
+use crate::values::constant_operand;
+use rungc_syntax::{Device, Operand, OperandKind, Span, codes};
 use std::rc::Rc;
 
 /// Characters of a statement that stand above its rung.
@@ -99,53 +100,6 @@ impl Compiler<'_> {
             }
             StmtKind::Empty | StmtKind::Unread => Ok(()),
         }
-    }
-
-    /// A label or device that can be written.
-    fn target(&self, target: &Expr) -> Made<(Operand, Ty)> {
-        let Some(place) = self.place(target)? else {
-            let what = match target.kind {
-                ExprKind::Call(..) => "a call cannot be assigned to",
-                _ => "a constant cannot be assigned to",
-            };
-            return fail(codes::ST_NOT_WRITABLE.at(target.span, what));
-        };
-        let device = place.operand.device();
-        if device.is_some_and(|device| device.class == DeviceClass::X) {
-            let what = format!("`{}` is an input, which the PLC reads", place.operand);
-            return fail(codes::ST_NOT_WRITABLE.at(target.span, what));
-        }
-        if let (Some(device), Ty::Bool) = (device, place.ty)
-            && matches!(device.class, DeviceClass::T | DeviceClass::C)
-        {
-            let what = format!("the contact of `{device}` is not assigned to");
-            let error = codes::ST_NOT_WRITABLE.at(target.span, what);
-            return fail(
-                error.help("call `OUT_T(EN, TC0, 50)`, `OUT_C(EN, CC0, 50)` or `RST(EN, TC0)`"),
-            );
-        }
-        let (span, kind) = (target.span, place.operand);
-        Ok((Operand { span, kind }, place.ty))
-    }
-
-    fn assign(&mut self, target: &Expr, value: &Expr) -> Made<()> {
-        let ((target, ty), ()) = both(self.target(target), Ok(()))?;
-        if ty == Ty::Bool {
-            let cond = self.condition(value)?;
-            match &cond {
-                Cond::Contact {
-                    operand,
-                    is_closed: false,
-                    ..
-                } if operand.kind == crate::emit::ON => self.power(),
-                cond => self.load(cond),
-            }
-            self.push("OUT", [target]);
-            return Ok(());
-        }
-        self.expect(value, ty)?;
-        self.compute(value, ty, Some(&target))?;
-        Ok(())
     }
 
     /// Warns of alternatives that are never run, or never left out.
@@ -270,7 +224,7 @@ impl Compiler<'_> {
                 return Ok(());
             }
         };
-        let selector = self.operand(of, ty)?;
+        let selector = self.kept_operand(of, ty)?;
         let mut seen: Vec<(i64, i64, Span)> = Vec::new();
         let mut end = None;
         let head = self.span;
@@ -342,22 +296,17 @@ impl Compiler<'_> {
                 return fail(error.label("again here").other(*before, "first here"));
             }
             seen.push((low, high, span));
-            let compare = |op, expr: &Expr, value| Cond::Compare {
-                op,
-                is_wide: ty.is_wide(),
-                operands: [
-                    selector.clone(),
-                    Operand {
-                        span: expr.span,
-                        kind: OperandKind::Decimal(value, None),
-                    },
-                ],
+            let mut compare = |op, expr: &Expr, value| {
+                let value = Operand {
+                    span: expr.span,
+                    kind: constant_operand(Const::Int(value), ty).unwrap_or(OperandKind::Decimal(value, None)),
+                };
+                self.compared(op, selector, &value, ty)
             };
             let one = match last {
-                None => compare(Op::Eq, first, low),
+                None => compare(Op::Eq, first, low)?,
                 Some(last) => {
-                    let (low, high) = (compare(Op::Ge, first, low), compare(Op::Le, last, high));
-                    Cond::Joined(Join::And, Rc::new(low), Rc::new(high))
+                    Cond::both(compare(Op::Ge, first, low)?, compare(Op::Le, last, high)?)
                 }
             };
             all = Some(match all {
@@ -385,14 +334,18 @@ impl Compiler<'_> {
     /// `FOR`: the counter is compared before each round, and the end is computed each time.
     fn count(&mut self, for_: &For) -> Made<()> {
         let head = self.span;
-        let checked = self.target(&for_.variable).and_then(|(counter, ty)| {
-            match ty.is_whole() && ty != Ty::Bool && !ty.is_unsigned() {
-                true => Ok((counter, ty)),
-                false => fail(codes::ST_TYPE.at(
-                    for_.variable.span,
-                    format!("FOR counts an INT or DINT, and this is {ty}"),
-                )),
+        let checked = self.target(&for_.variable).and_then(|counter| {
+            let (ty, span) = (counter.ty, for_.variable.span);
+            if !ty.is_whole() || ty.is_unsigned() {
+                let what = format!("FOR counts an INT or DINT, and this is {ty}");
+                return fail(codes::ST_TYPE.at(span, what));
             }
+            if counter.is_variable() {
+                let what = "a counter of FOR with a variable index is not compiled yet";
+                return fail(codes::ST_UNSUPPORTED.at(span, what));
+            }
+            let kind = counter.operand;
+            Ok((Operand { span, kind }, ty))
         });
         let step = match &for_.by {
             None => Ok(1),
@@ -415,7 +368,7 @@ impl Compiler<'_> {
         self.compute(&for_.from, ty, Some(&counter))?;
         let (again, end) = (self.pointer()?, self.pointer()?);
         self.label(again);
-        let last = self.operand(&for_.to, ty)?;
+        let last = self.kept_operand(&for_.to, ty)?;
         let op = if step > 0 { Op::Gt } else { Op::Lt };
         let is_wide = ty.is_wide();
         self.load(&Cond::Compare {

@@ -2,167 +2,15 @@
 
 use crate::ast::{Arg, Expr, ExprKind, Op};
 use crate::convert::{self, Steps};
-use crate::device;
 use crate::emit::{Compiler, Made, both, fail, relay};
 use crate::fold;
-use crate::labels::{Stored, value_in};
+use crate::functions;
+use crate::labels::value_in;
 use crate::literal::{Const, Literal};
 use crate::types::{Fit, Ty};
-use rungc_syntax::{Device, Operand, OperandKind, codes, diag::did_you_mean};
-
-/// Something that has a device.
-#[derive(Clone, Debug)]
-pub(crate) struct Place {
-    pub operand: OperandKind,
-    pub ty: Ty,
-    /// True for a name, false for a bit or element of one.
-    pub is_name: bool,
-}
+use rungc_syntax::{Device, Operand, OperandKind, codes};
 
 impl Compiler<'_> {
-    /// The device that an expression names, or an error if it names none.
-    pub(crate) fn place(&self, expr: &Expr) -> Made<Option<Place>> {
-        match &expr.kind {
-            ExprKind::Name(name) => self.named(name, expr),
-            ExprKind::Address(text) => match device::address(text) {
-                Some((operand, ty)) => Ok(Some(Place {
-                    operand,
-                    ty,
-                    is_name: true,
-                })),
-                None => {
-                    let error =
-                        codes::ST_UNKNOWN_NAME.at(expr.span, format!("`{text}` is not an address"));
-                    fail(error.help("write the device, such as `X0`, `M10` or `D10`"))
-                }
-            },
-            ExprKind::Member(of, member) => self.member(of, member, expr),
-            ExprKind::Index(of, indexes) => self.element(of, indexes, expr).map(Some),
-            _ => Ok(None),
-        }
-    }
-
-    fn named(&self, name: &str, expr: &Expr) -> Made<Option<Place>> {
-        let Some(label) = self.labels.get(name) else {
-            if let Some((operand, ty)) = device::find(name) {
-                return Ok(Some(Place {
-                    operand,
-                    ty,
-                    is_name: true,
-                }));
-            }
-            if fold::constant(&self.labels, expr).is_some() {
-                return Ok(None);
-            }
-            return fail(self.unknown(name, expr));
-        };
-        match &label.stored {
-            Stored::Device(operand) if label.bounds.is_none() => Ok(Some(Place {
-                operand: operand.clone(),
-                ty: label.ty,
-                is_name: true,
-            })),
-            Stored::Device(_) => {
-                let error =
-                    codes::ST_UNSUPPORTED.at(expr.span, format!("`{name}` is a whole array"));
-                fail(error.help("name an element: whole arrays are not compiled yet"))
-            }
-            Stored::Constant(_) => Ok(None),
-            Stored::Instance(_) => {
-                let error = codes::ST_TYPE.at(
-                    expr.span,
-                    format!("`{name}` is an instance of a function block"),
-                );
-                fail(error.help(format!("call it: `{name}(…);`")))
-            }
-            // Its declaration is reported.
-            Stored::Unknown => Err(Vec::new()),
-        }
-    }
-
-    fn unknown(&self, name: &str, expr: &Expr) -> rungc_syntax::Diagnostic {
-        let upper = name.to_uppercase();
-        let names = self
-            .labels
-            .all()
-            .map(|label| (label.name.to_uppercase(), &label.name));
-        let names: Vec<_> = names.collect();
-        let meant = did_you_mean(&upper, names.iter().map(|(upper, _)| upper.as_str()));
-        let meant = meant.and_then(|meant| names.iter().find(|(upper, _)| upper == meant));
-        let error = codes::ST_UNKNOWN_NAME.at(expr.span, format!("nothing declares `{name}`"));
-        match meant {
-            Some((_, meant)) => error.help(format!("did you mean `{meant}`?")),
-            None => error.help("declare it in `VAR` … `END_VAR`, or write a device such as `M0`"),
-        }
-    }
-
-    /// A bit of a register.
-    fn member(&self, of: &Expr, member: &str, expr: &Expr) -> Made<Option<Place>> {
-        if let Some(name) = of.name()
-            && self.labels.get(name).is_none()
-            && device::float(name, member).is_some()
-        {
-            return Ok(None);
-        }
-        let Some(word) = self.place(of)? else {
-            return fail(codes::ST_TYPE.at(of.span, "this has no members"));
-        };
-        let bit = device::bit(&word.operand, member).filter(|_| word.ty.words() == 1);
-        let Some(operand) = bit else {
-            let what = format!("`{member}` is not a bit of {}", word.ty);
-            return fail(
-                codes::ST_TYPE
-                    .at(expr.span, what)
-                    .help("a register of 16 bits has the bits 0 to F"),
-            );
-        };
-        let ty = Ty::Bool;
-        Ok(Some(Place {
-            operand,
-            ty,
-            is_name: false,
-        }))
-    }
-
-    /// An element of an array, by a constant index.
-    fn element(&self, of: &Expr, indexes: &[Expr], expr: &Expr) -> Made<Place> {
-        let label = of.name().and_then(|name| self.labels.get(name));
-        let (Some(label), [index]) = (label, indexes) else {
-            return fail(codes::ST_TYPE.at(of.span, "this is not an array of one dimension"));
-        };
-        let Some((first, last)) = label.bounds else {
-            return fail(codes::ST_TYPE.at(of.span, format!("`{}` is not an array", label.name)));
-        };
-        let Stored::Device(OperandKind::Device(base, None)) = label.stored else {
-            return Err(Vec::new());
-        };
-        let at = match fold::constant(&self.labels, index) {
-            Some((Const::Int(at), _)) => at,
-            Some(_) => return fail(codes::ST_TYPE.at(index.span, "an index is a whole number")),
-            None => {
-                let error = codes::ST_UNSUPPORTED.at(
-                    index.span,
-                    "an index that is not constant is not compiled yet",
-                );
-                return fail(error.help("write an index register: `D100Z0`"));
-            }
-        };
-        if at < first || at > last {
-            let what = format!("`{}` has the elements {first} to {last}", label.name);
-            return fail(codes::ST_LITERAL.at(expr.span, what));
-        }
-        let each = i64::from(label.ty.words().max(1));
-        let number = i64::from(base.number) + (at - first) * each;
-        let number = u32::try_from(number).unwrap_or(u32::MAX);
-        let operand = OperandKind::Device(Device { number, ..base }, None);
-        let ty = label.ty;
-        Ok(Place {
-            operand,
-            ty,
-            is_name: false,
-        })
-    }
-
     /// The type of an expression.
     pub(crate) fn ty(&self, expr: &Expr) -> Made<Ty> {
         if let Some((_, ty)) = self.constant(expr)? {
@@ -238,30 +86,39 @@ impl Compiler<'_> {
         Ok(if op.compares() { Ty::Bool } else { ty })
     }
 
+    /// The only argument of a call.
+    pub(crate) fn only<'e>(&self, name: &str, args: &'e [Arg], expr: &Expr) -> Made<&'e Expr> {
+        match args {
+            [arg] => Ok(&arg.value),
+            _ => {
+                let what = format!("`{name}` takes one argument, and {} are given", args.len());
+                fail(codes::ST_ARGUMENTS.at(expr.span, what))
+            }
+        }
+    }
+
     fn type_of_call(&self, of: &Expr, args: &[Arg], expr: &Expr) -> Made<Ty> {
         let name = of.name().unwrap_or_default();
+        if let Some(function) = self.functions.get(&name.to_uppercase()) {
+            return self.type_of_result(function, expr);
+        }
         if let Some((from, to, _)) = convert::find(name) {
-            let [arg] = args else {
-                let what = format!("`{name}` takes one argument, and {} are given", args.len());
-                return fail(codes::ST_ARGUMENTS.at(expr.span, what));
-            };
-            let ty = self.ty(&arg.value)?;
+            let arg = self.only(name, args, expr)?;
+            let ty = self.ty(arg)?;
             if ty.fit(from) != Fit::Fits {
                 let what = format!("`{name}` takes {from}, and this is {ty}");
-                return fail(codes::ST_TYPE.at(arg.value.span, what));
+                return fail(codes::ST_TYPE.at(arg.span, what));
             }
             return Ok(to);
         }
         if is_edge(name) {
-            let [arg] = args else {
-                let what = format!("`{name}` takes one argument, and {} are given", args.len());
-                return fail(codes::ST_ARGUMENTS.at(expr.span, what));
-            };
-            self.expect(&arg.value, Ty::Bool)?;
+            self.expect(self.only(name, args, expr)?, Ty::Bool)?;
             return Ok(Ty::Bool);
         }
-        let what = format!("the function `{name}` is not compiled yet");
-        fail(codes::ST_UNSUPPORTED.at(of.span, what))
+        if let Some(function) = functions::find(name) {
+            return self.type_of_function(function, args, expr);
+        }
+        fail(functions::unknown(name, of))
     }
 
     /// The value of a constant expression.
@@ -309,13 +166,19 @@ impl Compiler<'_> {
             });
         }
         if let Some(place) = self.place(expr)? {
-            return Ok(Operand {
-                span,
-                kind: place.operand,
-            });
+            return self.reached(&place, span);
         }
         let kind = self.compute(expr, ty, None)?;
         Ok(Operand { span, kind })
+    }
+
+    /// As [`Self::operand`], one that keeps its value while others are computed.
+    pub(crate) fn kept_operand(&mut self, expr: &Expr, ty: Ty) -> Made<Operand> {
+        self.expect(expr, ty)?;
+        match self.place(expr)? {
+            Some(place) if place.is_variable() => self.kept(&place, expr.span),
+            _ => self.operand(expr, ty),
+        }
     }
 
     /// Computes an expression under a rung that is always on, into a target or a temporary; gives the device that
@@ -343,11 +206,16 @@ impl Compiler<'_> {
             }
             ExprKind::Call(of, args) => {
                 let name = of.name().unwrap_or_default();
-                let Some(conversion) = convert::find(name) else {
-                    let what = format!("the function `{name}` is not compiled yet");
-                    return fail(codes::ST_UNSUPPORTED.at(of.span, what));
-                };
-                self.converted(conversion, &args[0].value, target)
+                if let Some(function) = self.functions.get(&name.to_uppercase()).cloned() {
+                    return self.result(&function, args, expr, target);
+                }
+                if let Some(conversion) = convert::find(name) {
+                    return self.converted(conversion, &args[0].value, target);
+                }
+                match functions::find(name) {
+                    Some(function) => self.function(function, args, ty, target),
+                    None => fail(functions::unknown(name, of)),
+                }
             }
             _ => {
                 let result = self.operand(expr, ty)?.kind;
@@ -357,7 +225,7 @@ impl Compiler<'_> {
     }
 
     /// An operation that writes its result straight into the target.
-    fn direct(
+    pub(crate) fn direct(
         &mut self,
         name: &str,
         ty: Ty,
@@ -378,7 +246,7 @@ impl Compiler<'_> {
     }
 
     /// Copies a result into the target, if there is one.
-    fn moved(
+    pub(crate) fn moved(
         &mut self,
         result: OperandKind,
         ty: Ty,
@@ -399,7 +267,14 @@ impl Compiler<'_> {
         ty: Ty,
         target: Option<&Operand>,
     ) -> Made<OperandKind> {
-        let (a, b) = both(self.operand(left, ty), self.operand(right, ty))?;
+        let first = match changes_index(right) {
+            true => self.kept_operand(left, ty),
+            false => self.operand(left, ty),
+        };
+        let (a, b) = both(first, self.operand(right, ty))?;
+        if matches!(op, Op::Div | Op::Mod) && ty.is_unsigned() {
+            return self.unsigned_quotient(op, [a, b], ty, target);
+        }
         let direct = match op {
             Op::Add => Some("ADD"),
             Op::Sub => Some("SUB"),
@@ -439,6 +314,9 @@ impl Compiler<'_> {
         arg: &Expr,
         target: Option<&Operand>,
     ) -> Made<OperandKind> {
+        if steps == Steps::FromBit {
+            return self.from_bit(arg, to, target);
+        }
         let source = self.operand(arg, from)?;
         if steps == Steps::Low && !matches!(source.kind, OperandKind::Device(..)) {
             let what = "a constant or a group of bits is not converted to 16 bits";
@@ -475,11 +353,30 @@ impl Compiler<'_> {
                 self.always("RST", [whole]);
                 self.push(name, [source, result]);
             }
+            Steps::FromBit | Steps::ToBit => {}
         }
         match target.filter(|_| own) {
             Some(target) => self.moved(kind, to, Some(target)),
             None => Ok(kind),
         }
+    }
+}
+
+/// Returns true if the computation of an expression may change Z0, or call a function.
+pub(crate) fn changes_index(expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Index(of, indexes) => {
+            let is_constant = |index: &Expr| matches!(index.kind, ExprKind::Number(_));
+            !indexes.iter().all(is_constant) || changes_index(of)
+        }
+        ExprKind::Member(of, _) | ExprKind::Not(of) | ExprKind::Neg(of) => changes_index(of),
+        ExprKind::Binary(_, left, right) => changes_index(left) || changes_index(right),
+        ExprKind::Call(of, args) => {
+            let name = of.name().unwrap_or_default();
+            let is_known = convert::find(name).is_some() || functions::find(name).is_some();
+            !is_known || args.iter().any(|arg| changes_index(&arg.value))
+        }
+        _ => false,
     }
 }
 
@@ -489,7 +386,7 @@ pub(crate) fn is_edge(name: &str) -> bool {
 }
 
 /// A constant as an operand.
-fn constant_operand(value: Const, ty: Ty) -> Option<OperandKind> {
+pub(crate) fn constant_operand(value: Const, ty: Ty) -> Option<OperandKind> {
     Some(match value {
         Const::Real(value) => OperandKind::float(value as f32)?,
         Const::Int(value) if ty == Ty::Real => OperandKind::float(value as f32)?,

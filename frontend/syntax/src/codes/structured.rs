@@ -90,4 +90,10 @@ super::codes! {
     "A condition is constant, or EXIT or RETURN stands before them.",
     wrong: "PROGRAM Main\nIF FALSE THEN\n    Y0 := X0;\nEND_IF;\nEND_PROGRAM\n",
     right: "PROGRAM Main\nIF X1 THEN\n    Y0 := X0;\nEND_IF;\nEND_PROGRAM\n";
+
+    ST_INDEX_REGISTER = "W0242" "st-index-register" Warning None,
+    "index register that variable indexes change",
+    "An index of an array that is not constant is computed in Z0, and in V0 if it has 32 bits. A value that the program keeps there is lost.",
+    wrong: "PROGRAM Main\nVAR\n    Values AT D100 : ARRAY [0..9] OF INT;\nEND_VAR\nZ0 := D0;\nD1 := Values[D2];\nD3 := D200Z0;\nEND_PROGRAM\n",
+    right: "PROGRAM Main\nVAR\n    Values AT D100 : ARRAY [0..9] OF INT;\nEND_VAR\nZ1 := D0;\nD1 := Values[D2];\nD3 := D200Z1;\nEND_PROGRAM\n";
 }

@@ -13,7 +13,7 @@ use chumsky::prelude::*;
 enum Part {
     Unit(Box<Unit>),
     Globals(Section),
-    Structure(Structure),
+    Structures(Vec<Structure>),
     Unread,
 }
 
@@ -28,7 +28,7 @@ pub(super) fn text<'t>() -> Rule<'t, Text> {
     let part = choice((
         unit.map(|unit| Part::Unit(Box::new(unit))).boxed(),
         section(true).map(Part::Globals).boxed(),
-        structure().map(Part::Structure).boxed(),
+        structures().map(Part::Structures).boxed(),
     ));
     let skipped = any()
         .filter(|lexeme: &Lexeme| !starts(lexeme.token))
@@ -44,7 +44,7 @@ pub(super) fn text<'t>() -> Rule<'t, Text> {
                 match part {
                     Part::Unit(unit) => text.units.push(*unit),
                     Part::Globals(section) => text.globals.push(section),
-                    Part::Structure(structure) => text.structures.push(structure),
+                    Part::Structures(all) => text.structures.extend(all),
                     Part::Unread => {}
                 }
             }
@@ -70,19 +70,23 @@ fn unit<'t>(first: &'static str, last: &'static str, kind: UnitKind) -> Rule<'t,
     let of = sign(":").ignore_then(type_name()).or_not();
     keyword(first)
         .then(name())
-        .then_ignore(of)
+        .then(of)
         .then_ignore(semicolon())
         .then(section(false).repeated().collect::<Vec<_>>())
         .then(whole_body())
         .then(closing(last))
-        .map(move |((((head, name), sections), body), is_closed)| Unit {
-            kind,
-            name,
-            sections,
-            body,
-            head,
-            is_closed,
-        })
+        .map(
+            move |(((((head, name), returns), sections), body), is_closed)| Unit {
+                kind,
+                name,
+                returns,
+                sections,
+                body,
+                head,
+                is_closed,
+                is_library: false,
+            },
+        )
         .boxed()
 }
 
@@ -273,17 +277,22 @@ fn type_name<'t>() -> Rule<'t, TypeName> {
         .boxed()
 }
 
-fn structure<'t>() -> Rule<'t, Structure> {
-    keyword("TYPE")
-        .ignore_then(name())
+fn structures<'t>() -> Rule<'t, Vec<Structure>> {
+    let one = name()
         .then_ignore(sign(":"))
         .then_ignore(keyword("STRUCT"))
-        .then_ignore(variables())
-        .then_ignore(keyword("END_STRUCT"))
+        .then(variables())
+        .then(closing("END_STRUCT"))
         .then_ignore(semicolon())
+        .map(|((name, members), is_closed)| Structure {
+            name,
+            members,
+            is_closed,
+        });
+    keyword("TYPE")
+        .ignore_then(one.repeated().at_least(1).collect::<Vec<_>>())
         .then_ignore(keyword("END_TYPE"))
         .then_ignore(semicolon())
-        .map(|name| Structure { name })
         .boxed()
 }
 

@@ -65,7 +65,11 @@ fn project(path: &Path, total: &mut Tally) {
     let texts = || files.iter().filter(|file| file.path.ends_with(".st"));
     let text = |contents: &[u8]| String::from_utf8_lossy(contents).into_owned();
     let labels = texts().filter(|file| file.path.starts_with("labels/"));
-    let globals: String = labels.map(|file| text(&file.contents)).collect();
+    let structures = texts().filter(|file| file.path.starts_with("structures/"));
+    let globals: String = structures
+        .chain(labels)
+        .map(|file| text(&file.contents))
+        .collect();
     let units = texts().filter(|file| !file.path.contains('/'));
     let units: Vec<_> = units
         .map(|file| (file.path.trim_end_matches(".st"), text(&file.contents)))
@@ -89,7 +93,8 @@ fn project(path: &Path, total: &mut Tally) {
     }
 }
 
-/// Devices that the vendor chose for labels of a unit, and for global ones.
+/// Devices that the vendor chose for labels of a unit, and for global ones, and those of members of structures, which
+/// no text states.
 fn known(sources: &Sources, unit: &str) -> Known {
     let devices = sources.devices();
     let local = format!("{unit}.");
@@ -98,7 +103,7 @@ fn known(sources: &Sources, unit: &str) -> Known {
         name.split('[').next().unwrap_or(name).to_uppercase()
     };
     let mut known = Known::new();
-    for one in devices.iter().filter(|one| one.is_chosen) {
+    for one in devices.iter().filter(|one| one.is_chosen || one.name.contains('.')) {
         known.entry(name(&one.name)).or_insert(one.device);
     }
     known

@@ -72,3 +72,8 @@ W0240 = 没有使用的标签
 # A condition is constant, or EXIT or RETURN stands before them.
 W0241 = 从不执行的语句
     .text = 条件是常数，或者前面有 EXIT 或 RETURN。
+
+# index register that variable indexes change
+# An index of an array that is not constant is computed in Z0, and in V0 if it has 32 bits. A value that the program keeps there is lost.
+W0242 = 变址寄存器被数组的变量下标改写
+    .text = 数组的下标不是常数时，在 Z0 中计算，32 位的下标还使用 V0。程序保存在其中的值会丢失。

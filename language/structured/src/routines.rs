@@ -1,0 +1,323 @@
+//! Subroutines: functions, and the blocks of the library of each instance. A call stores the inputs in the devices of
+//! the subroutine, and reads its results from them; the bodies follow the program after FEND.
+
+use crate::ast::{Arg, Expr, Unit, UnitKind};
+use crate::emit::{Compiler, Made, fail};
+use crate::labels::{Instance, Label, Labels, Role, Stored};
+use crate::types::{Fit, Ty};
+use crate::values::changes_index;
+use rungc_syntax::{Device, Operand, OperandKind, Span, codes};
+use std::rc::Rc;
+
+/// Levels of subroutines that the PLC can call from within each other.
+const DEEPEST: usize = 5;
+
+/// A subroutine that is called.
+#[derive(Debug)]
+pub(crate) struct Routine {
+    instance: Rc<Instance>,
+    pointer: Device,
+    /// Place of its name, or of the call of a block of the library.
+    span: Span,
+    /// Positions of the routines that it calls.
+    calls: Vec<usize>,
+}
+
+impl Compiler<'_> {
+    /// The type of the result of a function.
+    pub(crate) fn type_of_result(&self, function: &Instance, expr: &Expr) -> Made<Ty> {
+        let name = &self.units[function.unit].name.text;
+        match function.own.own(name).map(|label| label.of.plain()) {
+            Some(Some(ty)) => Ok(ty),
+            _ => {
+                let what = format!("the result of `{name}` has no elementary type");
+                fail(codes::ST_TYPE.at(expr.span, what))
+            }
+        }
+    }
+
+    /// Calls a function; gives the device that holds a copy of its result.
+    pub(crate) fn result(
+        &mut self,
+        function: &Rc<Instance>,
+        args: &[Arg],
+        expr: &Expr,
+        target: Option<&Operand>,
+    ) -> Made<OperandKind> {
+        let ty = self.type_of_result(function, expr)?;
+        self.call_routine(function, args, expr)?;
+        let name = &self.units[function.unit].name.text;
+        let stored = function.own.own(name).map(|label| label.stored.clone());
+        let Some(Stored::Device(result)) = stored else {
+            return Err(Vec::new());
+        };
+        if target.is_some() || ty == Ty::Bool {
+            return self.moved(result, ty, target);
+        }
+        // The next call changes the result.
+        let copy = self.temporary(ty.words())?;
+        let copy = self.here(OperandKind::Device(copy, None));
+        self.moved(result, ty, Some(&copy))
+    }
+
+    /// Calls a subroutine: inputs first, outputs that the call gives away behind it.
+    pub(crate) fn call_routine(
+        &mut self,
+        instance: &Rc<Instance>,
+        args: &[Arg],
+        call: &Expr,
+    ) -> Made<()> {
+        let unit = &self.units[instance.unit];
+        let bound = bind(unit, instance, args, call)?;
+        let mut errors = Vec::new();
+        let is_input = |(label, _): &&(&Label, &Arg)| label.role == Role::Input;
+        let inputs: Vec<_> = bound.iter().filter(is_input).collect();
+        // A call among the arguments may be one of the same subroutine.
+        let is_later = inputs.len() > 1 && inputs.iter().any(|(_, arg)| changes_index(&arg.value));
+        let mut stored = Vec::new();
+        for (label, arg) in inputs {
+            match self.input(label, &arg.value, is_later) {
+                Ok(later) => stored.extend(later),
+                Err(more) => errors.extend(more),
+            }
+        }
+        if !errors.is_empty() {
+            return Err(errors);
+        }
+        for (ty, from, to) in stored {
+            self.store(ty, from, to);
+        }
+        let pointer = self.routine(instance, call.span)?;
+        let pointer = self.here(OperandKind::Device(pointer, None));
+        self.always("CALL", [pointer]);
+        for (label, arg) in bound.iter().filter(|(label, _)| label.role == Role::Output) {
+            self.output(label, &arg.value)?;
+        }
+        Ok(())
+    }
+
+    /// Stores an input in the device of the subroutine, or, if other inputs come first, in a temporary; gives what is
+    /// left to be stored.
+    fn input(
+        &mut self,
+        label: &Label,
+        value: &Expr,
+        is_later: bool,
+    ) -> Made<Option<(Ty, OperandKind, Operand)>> {
+        let (Stored::Device(device), Some(ty)) = (&label.stored, label.of.plain()) else {
+            let what = "an input that is an array or structure is not compiled yet";
+            return fail(codes::ST_UNSUPPORTED.at(value.span, what));
+        };
+        let device = self.here(device.clone());
+        if ty == Ty::Bool {
+            let cond = self.condition(value)?;
+            self.load(&cond);
+            if !is_later {
+                self.push("OUT", [device]);
+                return Ok(None);
+            }
+            let bit = self.temporary(0)?;
+            let coil = self.here(OperandKind::Device(bit, None));
+            self.push("OUT", [coil.clone()]);
+            return Ok(Some((ty, coil.kind, device)));
+        }
+        self.expect(value, ty)?;
+        if is_later {
+            let temporary = self.temporary(ty.words())?;
+            let copy = self.here(OperandKind::Device(temporary, None));
+            let kind = self.compute(value, ty, Some(&copy))?;
+            return Ok(Some((ty, kind, device)));
+        }
+        self.compute(value, ty, Some(&device))?;
+        Ok(None)
+    }
+
+    /// Copies a bit or number.
+    fn store(&mut self, ty: Ty, from: OperandKind, to: Operand) {
+        let from = self.here(from);
+        if ty == Ty::Bool {
+            self.is_powered = false;
+            self.push("LD", [from]);
+            self.push("OUT", [to]);
+        } else {
+            self.always(&Self::sized("MOV", ty), [from, to]);
+        }
+    }
+
+    /// Copies an output of the subroutine to where the call wants it.
+    fn output(&mut self, label: &Label, target: &Expr) -> Made<()> {
+        let place = self.target(target)?;
+        let (Stored::Device(device), Some(ty)) = (&label.stored, label.of.plain()) else {
+            let what = "an output that is an array or structure is not compiled yet";
+            return fail(codes::ST_UNSUPPORTED.at(target.span, what));
+        };
+        if ty.fit(place.ty) != Fit::Fits {
+            let what = format!("this is {}, and the output is {ty}", place.ty);
+            return fail(codes::ST_TYPE.at(target.span, what));
+        }
+        if place.is_variable() && ty == Ty::Bool {
+            let what = "an output to an element with a variable index is not compiled yet";
+            return fail(codes::ST_UNSUPPORTED.at(target.span, what));
+        }
+        let to = self.reached(&place, target.span)?;
+        self.store(ty, device.clone(), to);
+        Ok(())
+    }
+
+    /// Pointer of a subroutine, which is compiled later.
+    fn routine(&mut self, instance: &Rc<Instance>, call: Span) -> Made<Device> {
+        let routines = self.routines.iter();
+        let known = routines.clone().position(|one| Rc::ptr_eq(&one.instance, instance));
+        let at = match known {
+            Some(at) => at,
+            None => {
+                let pointer = self.pointer()?;
+                let unit = &self.units[instance.unit];
+                let span = if unit.is_library { call } else { unit.name.span };
+                self.routines.push(Routine {
+                    instance: Rc::clone(instance),
+                    pointer,
+                    span,
+                    calls: Vec::new(),
+                });
+                self.routines.len() - 1
+            }
+        };
+        if let Some(caller) = self.routine {
+            self.routines[caller].calls.push(at);
+        }
+        Ok(self.routines[at].pointer)
+    }
+
+    /// Compiles the subroutines that are called, and those that they call.
+    pub(crate) fn routines(&mut self) {
+        let mut at = 0;
+        while at < self.routines.len() {
+            self.routine = Some(at);
+            // The caller still needs its temporaries.
+            self.supply.settle();
+            self.body_of(at);
+            at += 1;
+        }
+        self.routine = None;
+        if let Some(span) = self.too_deep() {
+            let what = "this calls itself, or nests more calls than the PLC can";
+            let error = codes::ST_UNSUPPORTED.at(span, what);
+            let help = format!("subroutines call each other in {DEEPEST} levels at most");
+            self.found.push(error.help(help));
+        }
+    }
+
+    fn body_of(&mut self, at: usize) {
+        let routine = &self.routines[at];
+        let (instance, pointer, span) = (Rc::clone(&routine.instance), routine.pointer, routine.span);
+        let unit = &self.units[instance.unit];
+        let mut labels: Labels = instance.own.clone();
+        labels.global = Some(self.globals());
+        let outer = std::mem::replace(&mut self.labels, Rc::new(labels));
+        let (first, statements) = (self.instrs.len(), self.statements.len());
+        self.span = span;
+        self.label(pointer);
+        self.end = None;
+        self.body(&unit.body);
+        self.span = span;
+        if let Some(end) = self.end.take() {
+            self.label(end);
+        }
+        self.push("SRET", []);
+        self.is_powered = false;
+        if unit.is_library {
+            // The text of the library is not that of the program.
+            self.statements.truncate(statements);
+            for instr in &mut self.instrs[first..] {
+                (instr.span, instr.mnemonic_span) = (span, span);
+                instr.remarks = Default::default();
+                for operand in &mut instr.operands {
+                    operand.span = span;
+                }
+            }
+        }
+        self.labels = outer;
+    }
+
+    /// A subroutine below which there are too many levels of calls.
+    fn too_deep(&self) -> Option<Span> {
+        let mut levels = vec![1; self.routines.len()];
+        // Around a circle of calls, levels grow without end.
+        for _ in 0..=DEEPEST {
+            for (at, routine) in self.routines.iter().enumerate() {
+                let below = routine.calls.iter().map(|call| levels[*call] + 1);
+                levels[at] = below.max().unwrap_or(1).max(levels[at]);
+            }
+        }
+        let at = levels.iter().position(|levels| *levels > DEEPEST)?;
+        Some(self.routines[at].span)
+    }
+}
+
+/// The labels of a subroutine that get the arguments of a call.
+fn bind<'c>(
+    unit: &Unit,
+    instance: &'c Instance,
+    args: &'c [Arg],
+    call: &Expr,
+) -> Made<Vec<(&'c Label, &'c Arg)>> {
+    let sections = unit.sections.iter();
+    let inputs = sections.filter(|section| section.keyword.text == "VAR_INPUT");
+    let names = inputs.flat_map(|section| &section.variables).flat_map(|variable| &variable.names);
+    let mut positions = names.map(|name| name.text.as_str());
+    let mut bound: Vec<(&Label, &Arg)> = Vec::new();
+    for arg in args {
+        let label = match &arg.name {
+            Some(name) => instance.own.all().find(|label| is_named(label, &name.text, unit)),
+            None if unit.kind == UnitKind::Function => {
+                positions.next().and_then(|name| instance.own.own(name))
+            }
+            None => {
+                let what = "arguments of a function block have names";
+                let error = codes::ST_ARGUMENTS.at(arg.value.span, what);
+                return fail(error.help("write `Instance(Input := value, Output => label)`"));
+            }
+        };
+        let span = arg.name.as_ref().map_or(arg.value.span, |name| name.span);
+        let Some(label) = label.filter(|label| label.role != Role::Own) else {
+            let what = match &arg.name {
+                Some(name) => format!("`{}` has no input or output `{}`", unit.name.text, name.text),
+                None => format!("`{}` has fewer inputs", unit.name.text),
+            };
+            return fail(codes::ST_ARGUMENTS.at(span, what));
+        };
+        if label.role == Role::InOut {
+            let what = "VAR_IN_OUT of a function is not compiled yet";
+            return fail(codes::ST_UNSUPPORTED.at(span, what));
+        }
+        if bound.iter().any(|(before, _)| before.name == label.name) {
+            let what = format!("`{}` is given twice", label.name);
+            return fail(codes::ST_ARGUMENTS.at(span, what));
+        }
+        bound.push((label, arg));
+    }
+    if unit.kind == UnitKind::Function {
+        let missing = instance.own.all().find(|label| {
+            label.role == Role::Input && !bound.iter().any(|(given, _)| given.name == label.name)
+        });
+        if let Some(missing) = missing {
+            let what = format!("`{}` of `{}` is not given", missing.name, unit.name.text);
+            let error = codes::ST_ARGUMENTS.at(call.span, what);
+            return fail(error.other(missing.span, "declared here"));
+        }
+    }
+    Ok(bound)
+}
+
+/// Returns true for the name of a label in a call. Blocks of the library have some names of IEC 61131-3 in the form of
+/// GX Works2, where `S1` and `R1` are devices.
+fn is_named(label: &Label, name: &str, unit: &Unit) -> bool {
+    let own = label.name.as_str();
+    let alias = match own {
+        "RESET" => "R",
+        "LOAD" => "LD",
+        own => own.trim_start_matches('_'),
+    };
+    own.eq_ignore_ascii_case(name) || unit.is_library && alias.eq_ignore_ascii_case(name)
+}
