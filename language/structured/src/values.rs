@@ -135,8 +135,8 @@ impl Compiler<'_> {
         }
         let of = self.ty(expr)?;
         let help = |error: rungc_syntax::Diagnostic| match of.conversion(ty) {
+            _ if ty == Ty::Bool => error.help("compare it with something, such as `<> 0`"),
             Some(function) => error.help(format!("write `{function}(…)`")),
-            None if ty == Ty::Bool => error.help("compare it with something, such as `<> 0`"),
             None => error,
         };
         let what = format!("this is {of}, where {ty} is expected");

@@ -1,6 +1,8 @@
 //! Structured text as users have it: what is wrong with it, what becomes of it, and how that compares with what the
 //! vendor's compiler makes.
 
+mod model;
 mod oracle;
+mod random;
 mod robust;
 mod texts;
