@@ -1,6 +1,7 @@
 //! Structured text as users have it: what is wrong with it, what becomes of it, and how that compares with what the
 //! vendor's compiler makes.
 
+mod behaviour;
 mod model;
 mod oracle;
 mod random;

@@ -116,6 +116,88 @@ fn blocks_are_expanded_with_the_operands_of_the_call() {
     insta::assert_snapshot!(compiled(text, ModelId::Fx3u).1);
 }
 
+/// A structure, arrays, and the statements of a program.
+fn parts(statements: &str) -> String {
+    format!(
+        "TYPE Axis :\nSTRUCT\n    Home : BOOL;\n    Position : DINT;\n    Speed : INT;\nEND_STRUCT\nEND_TYPE\n\
+         PROGRAM P\nVAR\n    c AT M3 : BOOL;\n    i AT D10 : INT;\n    j AT D11 : INT;\n    d AT D20 : DINT;\n    \
+         x AT D100 : ARRAY [0..9] OF INT;\n    y AT D200 : ARRAY [0..9] OF DINT;\n    \
+         f AT M50 : ARRAY [0..9] OF BOOL;\n    g AT D300 : ARRAY [1..2, 0..3] OF INT;\n    \
+         One, Other : Axis;\n    Axes : ARRAY [0..3] OF Axis;\nEND_VAR\n{statements}END_PROGRAM\n"
+    )
+}
+
+#[test]
+fn variable_indexes_are_in_z0() {
+    insta::assert_snapshot!(list(&parts(
+        "i := x[j];\nd := y[j];\ni := x[d];\nx[j] := i + 1;\nx[j] := x[i];\nf[j] := c;\nf[j] := c AND i > 0;\n\
+         c := f[j];\nc := x[i] > x[j];\ng[i, 2] := g[2, j];\ng[i, j] := 0;\ni := x[i] + x[j];\nMOV(c, x[i], j);\n"
+    )));
+}
+
+#[test]
+fn structures_have_their_bits_in_m_and_all_else_in_d() {
+    insta::assert_snapshot!(list(&parts(
+        "One.Home := Other.Position = 0;\nOne.Speed := 5;\nOne := Other;\nAxes[2].Position := d;\n\
+         Axes[j].Position := d;\nAxes[j].Home := c;\nOne := Axes[j];\n"
+    )));
+}
+
+#[test]
+fn functions_are_subroutines() {
+    let function = "FUNCTION Scaled : INT\nVAR_INPUT\n    Raw : INT;\n    Fine : BOOL;\nEND_VAR\n\
+         Scaled := Raw / 10;\nIF Fine THEN Scaled := Raw; END_IF;\nEND_FUNCTION\n";
+    let program = parts("i := Scaled(x[0], c);\nj := Scaled(Raw := i, Fine := FALSE) + Scaled(Scaled(1, c), c);\n");
+    insta::assert_snapshot!(list(&format!("{function}{program}")));
+}
+
+#[test]
+fn blocks_of_the_library_are_subroutines_of_each_instance() {
+    insta::assert_snapshot!(list(
+        "PROGRAM P\nVAR\n    Delay : TON;\n    Rise : R_TRIG;\n    Count : CTU;\nEND_VAR\n\
+         Delay(IN := X0, PT := T#5s, Q => Y0);\nRise(CLK := X1);\n\
+         Count(CU := Rise.Q, R := X2, PV := 10, CV => D0);\nY1 := Count.Q OR Delay.ET > T#2s;\nEND_PROGRAM\n"
+    ));
+}
+
+#[test]
+fn functions_of_the_library() {
+    insta::assert_snapshot!(list(&body(
+        "i := LIMITATION(0, j, 100);\ni := SEL(a, j, 7);\ni := MAX(i, j, 3);\ni := MUX(j, 1, 2, i);\nd := ABS(e);\n\
+         w := SHL(w, 3);\nw := SHR(w, 3);\nu := SHR(u, 3);\nw := ROL(w, 2);\ni := BOOL_TO_INT(a OR b);\n\
+         c := INT_TO_BOOL(i);\nr := SQRT(s);\n"
+    )));
+}
+
+#[test]
+fn comparisons_of_real_and_unsigned_values() {
+    insta::assert_snapshot!(list(&body(
+        "c := r <= s;\nc := a AND r > 1.5;\nIF r <> s THEN i := 1; END_IF;\nc := w >= 40000;\nw := w / 10;\n"
+    )));
+}
+
+#[test]
+fn what_is_not_compiled_has_a_reason() {
+    let shown = |text: &str| compiled(text, ModelId::Fx3u).1;
+    let mut all = shown(
+        "TYPE A :\nSTRUCT\n    b : B;\n    t : TIMER;\nEND_STRUCT\nB :\nSTRUCT\n    a : A;\n    n : INT := 5;\n\
+         END_STRUCT\nEND_TYPE\nPROGRAM P\nVAR\n    a : A;\nEND_VAR\nEND_PROGRAM\n",
+    );
+    all += &shown(&parts(
+        "i := One;\nOne := 5;\nOne := x;\nx[c] := 1;\nx[10] := 1;\nOne.Sped := 1;\nx := x;\nSET(c, f[i]);\n\
+         MOV(TRUE, x[i], x[j]);\nFOR x[i] := 0 TO 3 DO END_FOR;\ni := MAX(i);\ni := MAX(i, c);\ni := SHL(i, j);\n\
+         i := LIMT(1, 2, i);\ni.x := 1;\nOUT_T(c, TC0, T#5s);\n",
+    ));
+    all += &shown(
+        "FUNCTION F : INT\nVAR_INPUT\n    n : INT;\nEND_VAR\nF := G(n);\nEND_FUNCTION\n\
+         FUNCTION G : INT\nVAR_INPUT\n    n : INT;\nEND_VAR\nG := F(n);\nEND_FUNCTION\n\
+         FUNCTION H\nH();\nEND_FUNCTION\n\
+         PROGRAM P\nVAR\n    t : TON;\nEND_VAR\nD0 := F();\nD0 := F(1, 2);\nD0 := F(1);\nD0 := F(m := 1);\n\
+         t(X0);\nt(In := X0, PT := 5.5);\nt(PP := 1);\nY0 := t.R;\nt();\nEND_PROGRAM\n",
+    );
+    insta::assert_snapshot!(all);
+}
+
 #[test]
 fn mistakes_are_reported_where_they_are() {
     insta::assert_snapshot!(compiled(include_str!("mistakes.st"), ModelId::Fx3u).1);

@@ -1,0 +1,144 @@
+//! Standard blocks, REAL values and whole programs as the interpreter runs them.
+
+use rungc_interp::Machine;
+use rungc_ir::Module;
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::{Model, ModelId};
+use rungc_rt::{Class, NoHal, Plc, Program as _};
+use rungc_syntax::{Program, Source, SourceKind};
+
+/// The module of a text, without errors on the way.
+fn module(text: &str, model: ModelId) -> Module {
+    let mut program = Program {
+        source: Source::new("a.st", text),
+        kind: SourceKind::StructuredText,
+        unread: vec![0],
+        ..Program::default()
+    };
+    let found = rungc_structured::compile(&mut program, Model::get(model));
+    assert_eq!(found.iter().count(), 0, "{found:?}");
+    let options = CompileOptions {
+        model: Some(model),
+        ..CompileOptions::default()
+    };
+    let compiled = compile(&program, &options);
+    compiled
+        .module
+        .unwrap_or_else(|| panic!("{model:?}: {:?}", compiled.diagnostics))
+}
+
+/// Scans every 50 ms from one time to another, with X0 on or off.
+fn hold(machine: &mut Machine, x0: bool, (from, to): (u32, u32)) {
+    machine.set_bit(Class::X, 0, x0);
+    for now in (from..=to).step_by(50) {
+        machine.scan(&mut NoHal, now, 10_000);
+    }
+}
+
+#[test]
+fn timers_switch_at_their_times() {
+    let text = "PROGRAM P\nVAR\n    On : TON;\n    Off : TOF;\n    Pulse : TP;\nEND_VAR\n\
+         On(IN := X0, PT := T#500ms, Q => Y0);\nOff(IN := X0, PT := T#500ms, Q => Y1);\n\
+         Pulse(IN := X0, PT := T#500ms, Q => Y2);\n\
+         DMOV(TRUE, On.ET, D0);\nDMOV(TRUE, Off.ET, D2);\nDMOV(TRUE, Pulse.ET, D4);\nEND_PROGRAM\n";
+    let module = module(text, ModelId::Fx3u);
+    let mut machine = Machine::new(&module);
+    let mut after = |x0, times| {
+        hold(&mut machine, x0, times);
+        let outputs = [0, 1, 2].map(|number| machine.output(number));
+        (outputs, [0, 2, 4].map(|number| machine.word(Class::D, number).unwrap()))
+    };
+    assert_eq!(after(false, (0, 200)), ([false; 3], [0; 3]));
+    let (outputs, _) = after(true, (250, 600));
+    assert_eq!(outputs, [false, true, true]);
+    assert_eq!(after(true, (650, 900)), ([true, true, false], [500, 0, 500]));
+    let (outputs, times) = after(false, (950, 1200));
+    assert_eq!(outputs, [false, true, false]);
+    assert_eq!([times[0], times[2]], [0, 0]);
+    assert_eq!(after(false, (1250, 1600)), ([false; 3], [0, 500, 0]));
+    // The pulse lasts when its input is short, and does not begin again while it runs.
+    assert_eq!(after(true, (1650, 1650)).0, [false, true, true]);
+    assert!(after(false, (1700, 1900)).0[2]);
+    assert!(after(true, (1950, 2000)).0[2]);
+    assert!(!after(true, (2050, 2400)).0[2]);
+    // An edge right behind the last pulse begins another.
+    after(false, (2450, 2450));
+    assert!(after(true, (2500, 2500)).0[2]);
+}
+
+#[test]
+fn counters_and_flip_flops() {
+    let text = "PROGRAM P\nVAR\n    Both : CTUD;\n    First : SR;\n    Second : RS;\nEND_VAR\n\
+         Both(CU := X0, CD := X1, R := X2, LD := X3, PV := 3, QU => Y0, QD => Y1, CV => D0);\n\
+         First(S1 := X0, R := X1, Q1 => Y2);\nSecond(S := X0, R1 := X1, Q1 => Y3);\nEND_PROGRAM\n";
+    let module = module(text, ModelId::Fx3u);
+    let mut machine = Machine::new(&module);
+    let mut inputs = |on: &[u32]| {
+        for number in 0..4 {
+            machine.set_bit(Class::X, number, on.contains(&number));
+        }
+        machine.scan(&mut NoHal, 0, 10_000);
+        let outputs = [0, 1, 2, 3].map(|number| machine.output(number));
+        (machine.word(Class::D, 0).unwrap(), outputs)
+    };
+    assert_eq!(inputs(&[]), (0, [false, true, false, false]));
+    assert_eq!(inputs(&[0]), (1, [false, false, true, true]));
+    assert_eq!(inputs(&[0]).0, 1);
+    assert_eq!(inputs(&[1]), (0, [false, true, false, false]));
+    assert_eq!(inputs(&[3]), (3, [true, false, false, false]));
+    // Both edges at once count nothing; SR and RS differ.
+    assert_eq!(inputs(&[0, 1]), (3, [true, false, true, false]));
+    assert_eq!(inputs(&[2]).0, 0);
+}
+
+#[test]
+fn real_values_and_large_unsigned_ones() {
+    let text = "PROGRAM P\nVAR\n    r AT D10 : REAL;\n    s AT D12 : REAL;\n    u AT D20 : DWORD;\n    \
+         uu AT D22 : DWORD;\n    w AT D24 : WORD;\nEND_VAR\n\
+         r := INT_TO_REAL(D0) / 4.0;\ns := MAX(r, 0.5) * 2.0;\nY0 := r > 1.0 AND r <= 2.5;\nY1 := r = s OR r < 0.0;\n\
+         D1 := REAL_TO_INT(LIMIT(0.0, s, 9.0));\nD2 := REAL_TO_INT(SQRT(16.0 + r - r));\n\
+         u := 16#80000000;\nuu := SHR(u, 31);\nY2 := u > uu;\nw := 50000;\nY3 := w > 3;\nD3 := WORD_TO_INT(w / 1000);\n\
+         END_PROGRAM\n";
+    let module = module(text, ModelId::Fx3u);
+    let mut machine = Machine::new(&module);
+    let mut with = |value| {
+        machine.set_word(Class::D, 0, value);
+        machine.scan(&mut NoHal, 0, 10_000);
+        let outputs = [0, 1, 2, 3].map(|number| machine.output(number));
+        (outputs, [1, 2, 3, 22].map(|number| machine.word(Class::D, number).unwrap()))
+    };
+    assert_eq!(with(6), ([true, false, true, true], [3, 4, 50, 1]));
+    assert_eq!(with(-8), ([false, true, true, true], [1, 4, 50, 1]));
+    assert_eq!(with(100), ([false, false, true, true], [9, 4, 50, 1]));
+}
+
+/// What the lists need is in all models, but for REAL values and rotations.
+#[test]
+fn all_models_run_blocks_arrays_and_structures() {
+    let text = "TYPE Pair :\nSTRUCT\n    a : INT;\n    b : BOOL;\n    c : DINT;\nEND_STRUCT\nEND_TYPE\n\
+         FUNCTION Half : INT\nVAR_INPUT\n    n : INT;\nEND_VAR\nHalf := n / 2;\nEND_FUNCTION\n\
+         PROGRAM P\nVAR\n    All : ARRAY [0..3] OF Pair;\n    Bits : ARRAY [0..3] OF BOOL;\n    One : Pair;\n    \
+         Delay : TON;\n    Rise : R_TRIG;\n    Count : CTU;\n    n : INT;\nEND_VAR\n\
+         FOR n := 0 TO 3 DO\n    All[n].a := Half(n * 4);\n    All[n].b := n = 2;\n    Bits[n] := All[n].b;\n    \
+         All[n].c := MAX(INT_TO_DINT(All[n].a), 3) + 100000;\nEND_FOR;\n\
+         One := All[2];\nDelay(IN := X0, PT := T#1s, Q => Y0);\nRise(CLK := X0);\n\
+         Count(CU := Rise.Q, R := FALSE, PV := 1, Q => Y1);\nD0 := One.a;\nY2 := One.b AND Bits[2];\n\
+         DMOV(TRUE, One.c, D2);\nD1 := SEL(Y2, LIMIT(0, D0, 3), ABS(-7 * D0));\nEND_PROGRAM\n";
+    for model in [
+        ModelId::Fx1s,
+        ModelId::Fx1n,
+        ModelId::Fx2n,
+        ModelId::Fx3s,
+        ModelId::Fx3g,
+        ModelId::Fx3u,
+    ] {
+        let module = module(text, model);
+        let mut machine = Machine::new(&module);
+        hold(&mut machine, true, (0, 1500));
+        let outputs = [0, 1, 2].map(|number| machine.output(number));
+        assert_eq!(outputs, [true; 3], "{model:?}");
+        let words = [0, 1, 2, 3].map(|number| machine.word(Class::D, number).unwrap());
+        assert_eq!(words, [4, 28, (100_004 % 65_536) as i16, 1], "{model:?}");
+        assert_eq!(machine.last_error().code, 0, "{model:?}");
+    }
+}
