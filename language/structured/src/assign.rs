@@ -103,7 +103,9 @@ impl Compiler<'_> {
             device.class,
             DeviceClass::X | DeviceClass::Y | DeviceClass::M | DeviceClass::S
         );
-        let follow = self.model.has(device.class, device.number + 15);
+        let follow = self
+            .model
+            .has(device.class, device.number.saturating_add(15));
         let kind = places::group(place)
             .filter(|_| is_bit && follow && !place.is_variable() && device.number < 8000)?;
         Some(Operand { span, kind })
@@ -149,7 +151,8 @@ impl Compiler<'_> {
             return fail(codes::ST_TYPE.at(value.span, what));
         }
         let Some(leaves) = to.of.leaves() else {
-            let what = format!("more than {MOST_LEAVES} members and elements are not copied at once");
+            let what =
+                format!("more than {MOST_LEAVES} members and elements are not copied at once");
             let error = codes::ST_UNSUPPORTED.at(span, what);
             return fail(match to.of {
                 Type::Array(_) => error.help("copy them with `BMOV(EN, From[0], Count, To[0])`"),
@@ -157,11 +160,9 @@ impl Compiler<'_> {
             });
         };
         for leaf in leaves {
-            let pair = to.member(&leaf.path, leaf.at, leaf.ty).zip(from.member(
-                &leaf.path,
-                leaf.at,
-                leaf.ty,
-            ));
+            let pair = to
+                .member(&leaf.path, leaf.at, leaf.ty)
+                .zip(from.member(&leaf.path, leaf.at, leaf.ty));
             let Some((to, from)) = pair else {
                 return Err(Vec::new());
             };

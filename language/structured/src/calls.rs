@@ -108,7 +108,11 @@ impl Compiler<'_> {
         {
             let what = "an instruction takes one element with a variable index";
             let error = codes::ST_UNSUPPORTED.at(other.value.span, what);
-            return fail(error.other(one.value.span, "another one").help("assign one of them to a label"));
+            return fail(
+                error
+                    .other(one.value.span, "another one")
+                    .help("assign one of them to a label"),
+            );
         }
         for (arg, at) in in_order {
             match self.argument(&arg.value, &params[at], found.form.wide) {
@@ -279,7 +283,12 @@ impl Compiler<'_> {
             ty => ty,
         };
         if ty == Ty::Time {
-            return self.timed_out(&enable.value, place.operand, device.value.span, &value.value);
+            return self.timed_out(
+                &enable.value,
+                place.operand,
+                device.value.span,
+                &value.value,
+            );
         }
         let stored = self.enabled(&enable.value)?;
         let value = self.kept_operand(&value.value, ty)?;

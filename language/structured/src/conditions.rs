@@ -204,8 +204,12 @@ impl Compiler<'_> {
 
     /// Sixteen bits that begin with an element of an array of bits.
     pub(crate) fn group_of(&self, place: &Place, span: Span) -> Made<OperandKind> {
-        let last = place.operand.device().map(|first| (first.class, first.number));
-        let last = last.map(|(class, number)| (class, number + place.reach + 15));
+        let last = place
+            .operand
+            .device()
+            .map(|first| (first.class, first.number));
+        let last = last
+            .map(|(class, number)| (class, number.saturating_add(place.reach).saturating_add(15)));
         let group = places::group(place).filter(|_| place.ty == Ty::Bool);
         match (group, last) {
             (Some(group), Some((class, last))) if self.model.has(class, last) => Ok(group),

@@ -17,7 +17,8 @@ pub(crate) enum Function {
     Select,
     Multiplex,
     Absolute,
-    Root,
+    /// Instruction with a REAL value and a REAL result.
+    OfReal(&'static str),
     /// Shift by a constant number of places.
     Shift(Shift),
 }
@@ -32,7 +33,7 @@ pub(crate) enum Shift {
 }
 
 /// Names of functions; GX Works2 writes some of them in full.
-static FUNCTIONS: [(&str, Function); 14] = [
+static FUNCTIONS: [(&str, Function); 23] = [
     ("MIN", Function::Extreme(Op::Gt)),
     ("MINIMUM", Function::Extreme(Op::Gt)),
     ("MAX", Function::Extreme(Op::Lt)),
@@ -42,7 +43,16 @@ static FUNCTIONS: [(&str, Function); 14] = [
     ("SEL", Function::Select),
     ("MUX", Function::Multiplex),
     ("ABS", Function::Absolute),
-    ("SQRT", Function::Root),
+    ("SQRT", Function::OfReal("DESQR")),
+    ("SIN", Function::OfReal("DSIN")),
+    ("COS", Function::OfReal("DCOS")),
+    ("TAN", Function::OfReal("DTAN")),
+    ("ASIN", Function::OfReal("DASIN")),
+    ("ACOS", Function::OfReal("DACOS")),
+    ("ATAN", Function::OfReal("DATAN")),
+    ("EXP", Function::OfReal("DEXP")),
+    ("LN", Function::OfReal("DLOGE")),
+    ("LOG", Function::OfReal("DLOG10")),
     ("SHL", Function::Shift(Shift::Left)),
     ("SHR", Function::Shift(Shift::Right)),
     ("ROL", Function::Shift(Shift::RotateLeft)),
@@ -58,8 +68,10 @@ pub(crate) fn find(name: &str) -> Option<Function> {
 
 /// A function of an unknown name.
 pub(crate) fn unknown(name: &str, of: &Expr) -> Diagnostic {
-    let error =
-        codes::ST_UNSUPPORTED.at(of.span, format!("the function `{name}` is not compiled yet"));
+    let error = codes::ST_UNSUPPORTED.at(
+        of.span,
+        format!("the function `{name}` is not compiled yet"),
+    );
     let names = FUNCTIONS.iter().map(|(name, _)| *name);
     let names = names.chain(convert::names());
     match did_you_mean(&name.to_uppercase(), names) {
@@ -85,7 +97,7 @@ impl Compiler<'_> {
             Function::Limit => (3, 3, "LIMIT(least, value, most)"),
             Function::Select => (3, 3, "SEL(condition, when FALSE, when TRUE)"),
             Function::Multiplex => (3, 17, "MUX(number, value 0, value 1, …)"),
-            Function::Absolute | Function::Root => (1, 1, "NAME(value)"),
+            Function::Absolute | Function::OfReal(_) => (1, 1, "NAME(value)"),
             Function::Shift(_) => (2, 2, "NAME(value, places)"),
         };
         if args.len() < least || args.len() > most {
@@ -107,7 +119,7 @@ impl Compiler<'_> {
         };
         let ty = self.common_type(values)?;
         let suits = match function {
-            Function::Root => ty == Ty::Real,
+            Function::OfReal(_) => ty == Ty::Real,
             Function::Absolute => !ty.is_unsigned() && ty != Ty::Bool,
             Function::Shift(_) => ty.is_whole() && !matches!(ty, Ty::Time | Ty::Integer),
             _ => ty != Ty::Bool,
@@ -157,10 +169,10 @@ impl Compiler<'_> {
             Function::Extreme(op) => self.extreme(op, args, ty)?,
             Function::Multiplex => self.multiplex(args, ty)?,
             Function::Absolute => self.absolute(&args[0].value, ty)?,
-            Function::Root => {
+            Function::OfReal(name) => {
                 let operand = self.operand(&args[0].value, ty)?;
                 let result = self.result_in(ty, target)?;
-                self.always("DESQR", [operand, result.clone()]);
+                self.always(name, [operand, result.clone()]);
                 return Ok(result.kind);
             }
             Function::Shift(shift) => self.shift(shift, args, ty)?,
@@ -183,7 +195,9 @@ impl Compiler<'_> {
     }
 
     fn kept_operands(&mut self, args: &[Arg], ty: Ty) -> Made<Vec<Operand>> {
-        args.iter().map(|arg| self.kept_operand(&arg.value, ty)).collect()
+        args.iter()
+            .map(|arg| self.kept_operand(&arg.value, ty))
+            .collect()
     }
 
     /// Copies a value where a condition holds.
@@ -288,7 +302,11 @@ impl Compiler<'_> {
         let decimal = |value: i64| OperandKind::Decimal(value, None);
         match shift {
             Shift::RotateLeft | Shift::RotateRight => {
-                let name = if shift == Shift::RotateLeft { "ROL" } else { "ROR" };
+                let name = if shift == Shift::RotateLeft {
+                    "ROL"
+                } else {
+                    "ROR"
+                };
                 let result = self.scratch(ty.words())?;
                 self.copy(&value, ty, &result);
                 if places > 0 {

@@ -229,6 +229,10 @@ impl Labels {
 
     /// Declares the labels of a section of a program, or of global ones.
     pub(crate) fn declare(&mut self, section: &Section, cx: &mut Declaring) {
+        // Global labels are known without it.
+        if section.keyword.text == "VAR_EXTERNAL" {
+            return;
+        }
         if !matches!(
             section.keyword.text.as_str(),
             "VAR" | "VAR_GLOBAL" | "VAR_CONSTANT" | "VAR_TEMP"
@@ -252,13 +256,7 @@ impl Labels {
         }
     }
 
-    fn variable(
-        &mut self,
-        variable: &Variable,
-        is_constant: bool,
-        role: Role,
-        cx: &mut Declaring,
-    ) {
+    fn variable(&mut self, variable: &Variable, is_constant: bool, role: Role, cx: &mut Declaring) {
         if let Some(unit) = block_of(variable, cx.units) {
             for name in &variable.names {
                 self.instance(name, unit, cx);
@@ -461,7 +459,7 @@ pub(crate) fn value_in((value, of): Literal, ty: Ty, span: Span) -> Result<Const
 }
 
 /// The function block that a declaration names as its type.
-fn block_of(variable: &Variable, units: &[Unit]) -> Option<usize> {
+pub(crate) fn block_of(variable: &Variable, units: &[Unit]) -> Option<usize> {
     let name = &variable.of.name.text;
     let is_this =
         |unit: &Unit| unit.kind == UnitKind::Block && unit.name.text.eq_ignore_ascii_case(name);

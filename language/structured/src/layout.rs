@@ -14,6 +14,9 @@ use std::rc::Rc;
 /// Number of members and elements that an assignment of whole structures or arrays copies.
 pub(crate) const MOST_LEAVES: usize = 64;
 
+/// Levels of structures within structures.
+const DEEPEST: usize = 8;
+
 /// Number of devices of a value, or the distance of one from the first.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(crate) struct Size {
@@ -176,7 +179,11 @@ impl Structures {
             if let Some(first) = all[..at].iter().find(same) {
                 let what = format!("`{}` is declared twice", one.name.text);
                 let error = codes::ST_DECLARED_TWICE.at(one.name.span, what);
-                found.push(error.label("again here").other(first.name.span, "first here"));
+                found.push(
+                    error
+                        .label("again here")
+                        .other(first.name.span, "first here"),
+                );
                 continue;
             }
             structures.add(one, all, labels, &mut open, found);
@@ -197,22 +204,31 @@ impl Structures {
         if self.by_name.contains_key(&key) {
             return;
         }
-        if !open.insert(key.clone()) {
-            let what = format!("the structure `{}` contains itself", one.name.text);
+        let is_deep = open.len() >= DEEPEST;
+        if is_deep || !open.insert(key.clone()) {
+            let what = match is_deep {
+                true => format!("structures nest deeper than {DEEPEST} levels"),
+                false => format!("the structure `{}` contains itself", one.name.text),
+            };
             found.push(codes::ST_TYPE.at(one.name.span, what));
             self.by_name.insert(key, None);
             return;
         }
         for variable in &one.members {
             let name = &variable.of.name.text;
-            let inner = all.iter().find(|other| other.name.text.eq_ignore_ascii_case(name));
+            let inner = all
+                .iter()
+                .find(|other| other.name.text.eq_ignore_ascii_case(name));
             if let Some(inner) = inner {
                 self.add(inner, all, labels, open, found);
             }
         }
         let members = self.members(one, labels, found);
+        open.remove(&key);
         // A structure that contains itself is known by now.
-        self.by_name.entry(key).or_insert_with(|| members.map(Rc::new));
+        self.by_name
+            .entry(key)
+            .or_insert_with(|| members.map(Rc::new));
     }
 
     fn members(
@@ -223,13 +239,25 @@ impl Structures {
     ) -> Option<Structure> {
         let mut members: Vec<Member> = Vec::new();
         let mut size = Size::default();
-        let mut is_whole = true;
+        let mut is_whole = !one.members.is_empty();
+        if !is_whole {
+            let what = format!("the structure `{}` has no members", one.name.text);
+            found.push(codes::ST_TYPE.at(one.name.span, what));
+        }
         for variable in &one.members {
             let of = labels.type_of(&variable.of, self, found);
             let of = of.filter(|of| self.is_storable(of, variable, found));
-            found.extend(variable.initial.iter().filter_map(|initial| initial_value(labels, initial)));
+            found.extend(
+                variable
+                    .initial
+                    .iter()
+                    .filter_map(|initial| initial_value(labels, initial)),
+            );
             for name in &variable.names {
-                if members.iter().any(|member| member.name.eq_ignore_ascii_case(&name.text)) {
+                if members
+                    .iter()
+                    .any(|member| member.name.eq_ignore_ascii_case(&name.text))
+                {
                     let what = format!("`{}` is declared twice", name.text);
                     found.push(codes::ST_DECLARED_TWICE.at(name.span, what));
                 }

@@ -206,6 +206,7 @@ fn compiled(
     for last in ["NOP", "END"] {
         compiler.push(last, []);
     }
+    compiler.uncalled();
     compiler.check_instances();
     compiler.check_registers();
     let (instrs, more) = (compiler.instrs, compiler.found);
@@ -215,6 +216,10 @@ fn compiled(
         if !found.contains(&one) {
             found.push(one);
         }
+    }
+    let incomplete = statements.iter().find(|one| !one.is_compiled);
+    if let Some(incomplete) = incomplete.filter(|_| !has_errors(found)) {
+        found.push(codes::ST_UNSUPPORTED.at(incomplete.span, "this is not compiled yet"));
     }
     if !has_errors(found) {
         unused(&labels, found);
@@ -259,13 +264,21 @@ fn functions_of(global: &Labels, cx: &mut Declaring) -> BTreeMap<String, Rc<Inst
         if unit.returns.is_none() {
             let what = format!("the function `{}` has no result", name.text);
             let error = codes::ST_SYNTAX.at(name.span, what);
-            cx.found.push(error.help(format!("write `FUNCTION {} : INT`", name.text)));
+            cx.found
+                .push(error.help(format!("write `FUNCTION {} : INT`", name.text)));
             continue;
         }
         if let Some(other) = global.get(&name.text) {
             let what = format!("`{}` is declared twice", name.text);
             let error = codes::ST_DECLARED_TWICE.at(name.span, what);
-            cx.found.push(error.label("again here").other(other.span, "first here"));
+            cx.found
+                .push(error.label("again here").other(other.span, "first here"));
+        }
+        let mut keywords = unit.sections.iter().map(|section| &section.keyword);
+        if let Some(reference) = keywords.find(|keyword| keyword.text == "VAR_IN_OUT") {
+            let what = "VAR_IN_OUT of a function is not compiled yet";
+            cx.found
+                .push(codes::ST_UNSUPPORTED.at(reference.span, what));
         }
         cx.path = format!("{}.", name.text);
         let instance = Instance::declared(at, cx);
@@ -275,7 +288,8 @@ fn functions_of(global: &Labels, cx: &mut Declaring) -> BTreeMap<String, Rc<Inst
             let first = cx.units[before.unit].name.span;
             let what = format!("`{}` is declared twice", name.text);
             let error = codes::ST_DECLARED_TWICE.at(name.span, what);
-            cx.found.push(error.label("again here").other(first, "first here"));
+            cx.found
+                .push(error.label("again here").other(first, "first here"));
         }
     }
     functions

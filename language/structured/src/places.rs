@@ -126,11 +126,14 @@ impl<'e> Spot<'e> {
     /// A member or element of elementary type, by its path and distance.
     pub(crate) fn member(&self, path: &str, distance: Size, ty: Ty) -> Option<Place<'e>> {
         let first = path.trim_start_matches('.').split(['.', '[']).next();
-        if let (At::Area(area), Type::Structure(structure), Some(first)) = (&self.at, &self.of, first)
+        if let (At::Area(area), Type::Structure(structure), Some(first)) =
+            (&self.at, &self.of, first)
             && let Some(device) = area.members.get(&first.to_uppercase())
         {
             let mut members = structure.members.iter();
-            let at = members.find(|member| member.name.eq_ignore_ascii_case(first))?.at;
+            let at = members
+                .find(|member| member.name.eq_ignore_ascii_case(first))?
+                .at;
             let within = match ty {
                 Ty::Bool => distance.bits - at.bits,
                 _ => distance.words - at.words,
@@ -297,7 +300,9 @@ impl Compiler<'_> {
     fn bit<'e>(&self, spot: Spot<'e>, member: &str, expr: &Expr) -> Made<Spot<'e>> {
         let of = spot.of.clone();
         let words = of.plain().map_or(0, Ty::words);
-        let bit = spot.place().filter(|word| words == 1 && !word.is_variable());
+        let bit = spot
+            .place()
+            .filter(|word| words == 1 && !word.is_variable());
         let Some(operand) = bit.and_then(|word| device::bit(&word.operand, member)) else {
             let error = codes::ST_TYPE.at(expr.span, format!("`{member}` is not a bit of {of}"));
             return fail(error.help("a register of 16 bits has the bits 0 to F"));

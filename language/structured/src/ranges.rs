@@ -100,7 +100,10 @@ impl Free {
 
     /// Leaves this many numbers at the end of the range.
     pub(crate) fn leave(&mut self, count: u32) {
-        self.end = self.end.min(self.limit.saturating_sub(count)).max(self.first);
+        self.end = self
+            .end
+            .min(self.limit.saturating_sub(count))
+            .max(self.first);
     }
 
     /// Leaves out all numbers that were ever taken.

@@ -1,12 +1,13 @@
 //! Subroutines: functions, and the blocks of the library of each instance. A call stores the inputs in the devices of
 //! the subroutine, and reads its results from them; the bodies follow the program after FEND.
 
-use crate::ast::{Arg, Expr, Unit, UnitKind};
+use crate::ast::{Arg, Expr, ExprKind, Unit, UnitKind};
 use crate::emit::{Compiler, Made, fail};
 use crate::labels::{Instance, Label, Labels, Role, Stored};
 use crate::types::{Fit, Ty};
 use crate::values::changes_index;
-use rungc_syntax::{Device, Operand, OperandKind, Span, codes};
+use rungc_syntax::{Device, Operand, OperandKind, Remarks, Span, codes};
+use smol_str::SmolStr;
 use std::rc::Rc;
 
 /// Levels of subroutines that the PLC can call from within each other.
@@ -19,6 +20,8 @@ pub(crate) struct Routine {
     pointer: Device,
     /// Place of its name, or of the call of a block of the library.
     span: Span,
+    /// Heading of the first rung of a block of the library.
+    heading: Option<SmolStr>,
     /// Positions of the routines that it calls.
     calls: Vec<usize>,
 }
@@ -27,10 +30,11 @@ impl Compiler<'_> {
     /// The type of the result of a function.
     pub(crate) fn type_of_result(&self, function: &Instance, expr: &Expr) -> Made<Ty> {
         let name = &self.units[function.unit].name.text;
-        match function.own.own(name).map(|label| label.of.plain()) {
-            Some(Some(ty)) => Ok(ty),
+        let result = function.own.own(name);
+        match result.map(|label| (&label.stored, label.of.plain())) {
+            Some((Stored::Device(_), Some(ty))) => Ok(ty),
             _ => {
-                let what = format!("the result of `{name}` has no elementary type");
+                let what = format!("the result of `{name}` is not a value");
                 fail(codes::ST_TYPE.at(expr.span, what))
             }
         }
@@ -87,7 +91,7 @@ impl Compiler<'_> {
         for (ty, from, to) in stored {
             self.store(ty, from, to);
         }
-        let pointer = self.routine(instance, call.span)?;
+        let pointer = self.routine(instance, call)?;
         let pointer = self.here(OperandKind::Device(pointer, None));
         self.always("CALL", [pointer]);
         for (label, arg) in bound.iter().filter(|(label, _)| label.role == Role::Output) {
@@ -165,19 +169,29 @@ impl Compiler<'_> {
     }
 
     /// Pointer of a subroutine, which is compiled later.
-    fn routine(&mut self, instance: &Rc<Instance>, call: Span) -> Made<Device> {
+    fn routine(&mut self, instance: &Rc<Instance>, call: &Expr) -> Made<Device> {
         let routines = self.routines.iter();
-        let known = routines.clone().position(|one| Rc::ptr_eq(&one.instance, instance));
+        let known = routines
+            .clone()
+            .position(|one| Rc::ptr_eq(&one.instance, instance));
         let at = match known {
             Some(at) => at,
             None => {
                 let pointer = self.pointer()?;
                 let unit = &self.units[instance.unit];
-                let span = if unit.is_library { call } else { unit.name.span };
+                let (span, heading) = match (&call.kind, unit.is_library) {
+                    (ExprKind::Call(of, _), true) => {
+                        let name = self.text.get(of.span.range()).unwrap_or_default();
+                        let heading = format!("{name} : {}", unit.name.text);
+                        (call.span, Some(heading.into()))
+                    }
+                    _ => (unit.name.span, None),
+                };
                 self.routines.push(Routine {
                     instance: Rc::clone(instance),
                     pointer,
                     span,
+                    heading,
                     calls: Vec::new(),
                 });
                 self.routines.len() - 1
@@ -210,12 +224,15 @@ impl Compiler<'_> {
 
     fn body_of(&mut self, at: usize) {
         let routine = &self.routines[at];
-        let (instance, pointer, span) = (Rc::clone(&routine.instance), routine.pointer, routine.span);
+        let (instance, pointer, span) =
+            (Rc::clone(&routine.instance), routine.pointer, routine.span);
+        let mut heading = routine.heading.clone();
         let unit = &self.units[instance.unit];
         let mut labels: Labels = instance.own.clone();
         labels.global = Some(self.globals());
         let outer = std::mem::replace(&mut self.labels, Rc::new(labels));
         let (first, statements) = (self.instrs.len(), self.statements.len());
+        let found = self.found.len();
         self.span = span;
         self.label(pointer);
         self.end = None;
@@ -231,13 +248,47 @@ impl Compiler<'_> {
             self.statements.truncate(statements);
             for instr in &mut self.instrs[first..] {
                 (instr.span, instr.mnemonic_span) = (span, span);
-                instr.remarks = Default::default();
+                let begins = instr.mnemonic.starts_with("LD");
+                let heading = if begins { heading.take() } else { None };
+                instr.remarks = Remarks::new(heading, None);
                 for operand in &mut instr.operands {
                     operand.span = span;
                 }
             }
         }
+        if unit.is_library {
+            self.found[found..]
+                .iter_mut()
+                .for_each(|one| one.span = span);
+        }
         self.labels = outer;
+    }
+
+    /// Examines the functions that nothing calls.
+    pub(crate) fn uncalled(&mut self) {
+        for function in self.functions.values().cloned().collect::<Vec<_>>() {
+            let mut routines = self.routines.iter();
+            if routines.any(|one| Rc::ptr_eq(&one.instance, &function)) {
+                continue;
+            }
+            let name = &self.units[function.unit].name;
+            let what = format!("nothing calls `{}`", name.text);
+            self.found.push(codes::ST_UNUSED.at(name.span, what));
+            let (instrs, routines) = (self.instrs.len(), self.routines.len());
+            let Some(pointer) = self.supply.pointer() else {
+                return;
+            };
+            self.routines.push(Routine {
+                instance: function,
+                pointer,
+                span: name.span,
+                heading: None,
+                calls: Vec::new(),
+            });
+            self.body_of(routines);
+            self.instrs.truncate(instrs);
+            self.routines.truncate(routines);
+        }
     }
 
     /// A subroutine below which there are too many levels of calls.
@@ -264,12 +315,17 @@ fn bind<'c>(
 ) -> Made<Vec<(&'c Label, &'c Arg)>> {
     let sections = unit.sections.iter();
     let inputs = sections.filter(|section| section.keyword.text == "VAR_INPUT");
-    let names = inputs.flat_map(|section| &section.variables).flat_map(|variable| &variable.names);
+    let names = inputs
+        .flat_map(|section| &section.variables)
+        .flat_map(|variable| &variable.names);
     let mut positions = names.map(|name| name.text.as_str());
     let mut bound: Vec<(&Label, &Arg)> = Vec::new();
     for arg in args {
         let label = match &arg.name {
-            Some(name) => instance.own.all().find(|label| is_named(label, &name.text, unit)),
+            Some(name) => instance
+                .own
+                .all()
+                .find(|label| is_named(label, &name.text, unit)),
             None if unit.kind == UnitKind::Function => {
                 positions.next().and_then(|name| instance.own.own(name))
             }
@@ -282,15 +338,14 @@ fn bind<'c>(
         let span = arg.name.as_ref().map_or(arg.value.span, |name| name.span);
         let Some(label) = label.filter(|label| label.role != Role::Own) else {
             let what = match &arg.name {
-                Some(name) => format!("`{}` has no input or output `{}`", unit.name.text, name.text),
+                Some(name) => format!(
+                    "`{}` has no input or output `{}`",
+                    unit.name.text, name.text
+                ),
                 None => format!("`{}` has fewer inputs", unit.name.text),
             };
             return fail(codes::ST_ARGUMENTS.at(span, what));
         };
-        if label.role == Role::InOut {
-            let what = "VAR_IN_OUT of a function is not compiled yet";
-            return fail(codes::ST_UNSUPPORTED.at(span, what));
-        }
         if bound.iter().any(|(before, _)| before.name == label.name) {
             let what = format!("`{}` is given twice", label.name);
             return fail(codes::ST_ARGUMENTS.at(span, what));

@@ -299,7 +299,8 @@ impl Compiler<'_> {
             let mut compare = |op, expr: &Expr, value| {
                 let value = Operand {
                     span: expr.span,
-                    kind: constant_operand(Const::Int(value), ty).unwrap_or(OperandKind::Decimal(value, None)),
+                    kind: constant_operand(Const::Int(value), ty)
+                        .unwrap_or(OperandKind::Decimal(value, None)),
                 };
                 self.compared(op, selector, &value, ty)
             };

@@ -46,12 +46,18 @@ fn timers_switch_at_their_times() {
     let mut after = |x0, times| {
         hold(&mut machine, x0, times);
         let outputs = [0, 1, 2].map(|number| machine.output(number));
-        (outputs, [0, 2, 4].map(|number| machine.word(Class::D, number).unwrap()))
+        (
+            outputs,
+            [0, 2, 4].map(|number| machine.word(Class::D, number).unwrap()),
+        )
     };
     assert_eq!(after(false, (0, 200)), ([false; 3], [0; 3]));
     let (outputs, _) = after(true, (250, 600));
     assert_eq!(outputs, [false, true, true]);
-    assert_eq!(after(true, (650, 900)), ([true, true, false], [500, 0, 500]));
+    assert_eq!(
+        after(true, (650, 900)),
+        ([true, true, false], [500, 0, 500])
+    );
     let (outputs, times) = after(false, (950, 1200));
     assert_eq!(outputs, [false, true, false]);
     assert_eq!([times[0], times[2]], [0, 0]);
@@ -105,7 +111,10 @@ fn real_values_and_large_unsigned_ones() {
         machine.set_word(Class::D, 0, value);
         machine.scan(&mut NoHal, 0, 10_000);
         let outputs = [0, 1, 2, 3].map(|number| machine.output(number));
-        (outputs, [1, 2, 3, 22].map(|number| machine.word(Class::D, number).unwrap()))
+        (
+            outputs,
+            [1, 2, 3, 22].map(|number| machine.word(Class::D, number).unwrap()),
+        )
     };
     assert_eq!(with(6), ([true, false, true, true], [3, 4, 50, 1]));
     assert_eq!(with(-8), ([false, true, true, true], [1, 4, 50, 1]));

@@ -233,7 +233,9 @@ impl<'u> Machine<'u> {
         for part in all {
             match part {
                 // Labels of a block are those of its instance.
-                Part::Name(name) if name.starts_with("own") => path = format!("{}{name}", self.scope),
+                Part::Name(name) if name.starts_with("own") => {
+                    path = format!("{}{name}", self.scope)
+                }
                 Part::Name(name) => path += name,
                 Part::Index(index) => path += &format!("[{}]", self.value(index)),
             }
@@ -397,7 +399,11 @@ impl<'u> Machine<'u> {
             "CTD" => {
                 self.set(&before, Ty::Bool, inputs[0]);
                 let counted = (self.get(&count) - rising(inputs[0])).max(-32768);
-                self.set(&count, Ty::Int, if inputs[1] == 1 { inputs[2] } else { counted });
+                self.set(
+                    &count,
+                    Ty::Int,
+                    if inputs[1] == 1 { inputs[2] } else { counted },
+                );
                 i64::from(self.get(&count) <= 0)
             }
             _ => {

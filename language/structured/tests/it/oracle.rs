@@ -103,7 +103,10 @@ fn known(sources: &Sources, unit: &str) -> Known {
         name.split('[').next().unwrap_or(name).to_uppercase()
     };
     let mut known = Known::new();
-    for one in devices.iter().filter(|one| one.is_chosen || one.name.contains('.')) {
+    for one in devices
+        .iter()
+        .filter(|one| one.is_chosen || one.name.contains('.'))
+    {
         known.entry(name(&one.name)).or_insert(one.device);
     }
     known

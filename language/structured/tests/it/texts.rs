@@ -147,7 +147,9 @@ fn structures_have_their_bits_in_m_and_all_else_in_d() {
 fn functions_are_subroutines() {
     let function = "FUNCTION Scaled : INT\nVAR_INPUT\n    Raw : INT;\n    Fine : BOOL;\nEND_VAR\n\
          Scaled := Raw / 10;\nIF Fine THEN Scaled := Raw; END_IF;\nEND_FUNCTION\n";
-    let program = parts("i := Scaled(x[0], c);\nj := Scaled(Raw := i, Fine := FALSE) + Scaled(Scaled(1, c), c);\n");
+    let program = parts(
+        "i := Scaled(x[0], c);\nj := Scaled(Raw := i, Fine := FALSE) + Scaled(Scaled(1, c), c);\n",
+    );
     insta::assert_snapshot!(list(&format!("{function}{program}")));
 }
 
