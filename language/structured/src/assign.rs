@@ -96,7 +96,7 @@ impl Compiler<'_> {
         self.push("OUT", [coil]);
     }
 
-    /// A bit and the 15 behind it as a word, as GX Works2 reads it; `None` if fewer follow.
+    /// A bit and the next 15 as a word, as GX Works2 reads it; `None` if fewer follow.
     fn neighbours(&self, place: &Place, span: Span) -> Option<Operand> {
         let device = place.operand.device()?;
         let is_bit = matches!(

@@ -156,7 +156,7 @@ impl Compiler<'_> {
                 continue;
             };
             let block = &self.units[instance.unit].name.text;
-            let what = format!("the instance of `{block}` has no value for `{name}` of its own");
+            let what = format!("the instance of `{block}` does not hold `{name}`");
             let error = codes::ST_UNSUPPORTED.at(span, what);
             let error = error.other(given, "a call gives this in its place");
             let error = error.help("give it in each call, and name what the call gives");

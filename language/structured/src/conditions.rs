@@ -219,7 +219,9 @@ impl Compiler<'_> {
                     class.prefix()
                 );
                 let error = codes::ST_NO_DEVICE.at(span, what);
-                fail(error.help("a variable index takes 16 bits from the element on: begin the array at a lower device"))
+                fail(
+                    error.help("a variable index takes 16 bits: begin the array at a lower device"),
+                )
             }
             _ => {
                 let what = "a bit or contact with a variable index is compiled for BOOL alone";

@@ -407,7 +407,7 @@ impl Compiler<'_> {
     }
 
     /// 1 or 0 by a condition.
-    pub(crate) fn from_bit(
+    pub(crate) fn bit_value(
         &mut self,
         arg: &Expr,
         ty: Ty,

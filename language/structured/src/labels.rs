@@ -278,7 +278,7 @@ impl Labels {
                     (true, _) => self.constant(variable, name, of),
                     (false, Some(Some(place))) => suits(place.clone(), of, variable),
                     (false, Some(None)) => Ok(Stored::Unknown),
-                    // A reference has no device of its own.
+                    // A reference has no device.
                     (false, None) if role == Role::InOut => Ok(Stored::Unknown),
                     (false, None) => chosen(&label, cx, variable),
                 };
@@ -564,14 +564,15 @@ fn chosen(
     let mut part = |class: DeviceClass, count| match known {
         _ if count == 0 => Ok(None),
         Some(known) if label.of.element().is_some() => Ok(Some(known)),
-        _ => cx.supply.take(class, count).map(Some).ok_or_else(|| {
-            let what = format!("no device {} is left for `{}`", class.prefix(), label.name);
-            let error = codes::ST_NO_DEVICE.at(label.span, what);
-            error.help("state a device with `AT`, or shorten the arrays")
-        }),
+        _ => cx.supply.take(class, count).map(Some).ok_or(class),
     };
-    area.words = part(class, size.words)?;
-    area.bits = part(DeviceClass::M, size.bits)?;
+    let none_left = |class: DeviceClass| {
+        let what = format!("no device {} is left for `{}`", class.prefix(), label.name);
+        let error = codes::ST_NO_DEVICE.at(label.span, what);
+        error.help("state a device with `AT`, or shorten the arrays")
+    };
+    area.words = part(class, size.words).map_err(none_left)?;
+    area.bits = part(DeviceClass::M, size.bits).map_err(none_left)?;
     Ok(match (&label.of, area.words.or(area.bits)) {
         (Type::Plain(_), Some(device)) => Stored::Device(OperandKind::Device(device, None)),
         _ => Stored::Area(area),

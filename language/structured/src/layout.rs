@@ -282,7 +282,7 @@ impl Structures {
         })
     }
 
-    /// Timers and counters are devices of their own, which a structure does not hold.
+    /// Reports timers and counters, which a structure does not hold, and devices.
     fn is_storable(&self, of: &Type, variable: &Variable, found: &mut Vec<Diagnostic>) -> bool {
         let place = variable.place.as_ref().map(|place| place.span);
         let (span, what) = match (of.element(), place) {

@@ -150,29 +150,12 @@ fn compiled(
 ) -> Option<Compiled> {
     let tree = parsed(text, found)?;
     let program = only_program(&tree, found)?;
-    let mut supply = Supply::new(ranges::of(model));
-    supply.avoid(known);
-    let mut constants = Labels::default();
-    let none = Structures::default();
-    let structures = {
-        let mut cx = Declaring::new(&mut supply, known, &tree.units, &none, found);
-        for section in tree.globals.iter().filter(|section| section.is_constant) {
-            constants.declare(section, &mut cx);
-        }
-        Structures::new(&tree.structures, &constants, found)
-    };
-    let mut cx = Declaring::new(&mut supply, known, &tree.units, &structures, found);
-    let mut global = constants;
-    for section in tree.globals.iter().filter(|section| !section.is_constant) {
-        global.declare(section, &mut cx);
-    }
-    let global = Rc::new(global);
-    let mut labels = Labels::below(Rc::clone(&global));
-    for section in &program.sections {
-        labels.declare(section, &mut cx);
-    }
-    let functions = functions_of(&global, &mut cx);
-    let labels = Rc::new(labels);
+    let Declared {
+        global,
+        labels,
+        functions,
+        supply,
+    } = declared(&tree, program, (model, known), found);
     let mut compiler = Compiler {
         labels: Rc::clone(&labels),
         units: &tree.units,
@@ -231,6 +214,52 @@ fn compiled(
         statements,
         comments: comments([&*global, &*labels]),
     })
+}
+
+/// Labels of a text.
+struct Declared {
+    global: Rc<Labels>,
+    labels: Rc<Labels>,
+    functions: BTreeMap<String, Rc<Instance>>,
+    /// Devices that are left.
+    supply: Supply,
+}
+
+/// Declares the labels of a text and its program: constants first, since bounds of arrays may name them.
+fn declared(
+    tree: &Text,
+    program: &Unit,
+    (model, known): (&'static Model, &Known),
+    found: &mut Vec<rungc_syntax::Diagnostic>,
+) -> Declared {
+    let mut supply = Supply::new(ranges::of(model));
+    supply.avoid(known);
+    let mut constants = Labels::default();
+    let none = Structures::default();
+    let structures = {
+        let mut cx = Declaring::new(&mut supply, known, &tree.units, &none, found);
+        for section in tree.globals.iter().filter(|section| section.is_constant) {
+            constants.declare(section, &mut cx);
+        }
+        Structures::new(&tree.structures, &constants, found)
+    };
+    let mut cx = Declaring::new(&mut supply, known, &tree.units, &structures, found);
+    let mut global = constants;
+    for section in tree.globals.iter().filter(|section| !section.is_constant) {
+        global.declare(section, &mut cx);
+    }
+    let global = Rc::new(global);
+    let mut labels = Labels::below(Rc::clone(&global));
+    for section in &program.sections {
+        labels.declare(section, &mut cx);
+    }
+    let functions = functions_of(&global, &mut cx);
+    Declared {
+        labels: Rc::new(labels),
+        global,
+        functions,
+        supply,
+    }
 }
 
 /// The program of a text; what else is in it and is not compiled is reported.

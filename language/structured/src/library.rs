@@ -1,5 +1,5 @@
-//! Standard blocks: timers, counters, edges and flip-flops, in structured text. As in GX Works2, each instance is a
-//! subroutine of its own.
+//! Standard blocks: timers, counters, edges and flip-flops, in structured text. As in GX Works2, each instance has
+//! its own subroutine.
 
 use crate::ast::{Text, Unit};
 use crate::parse;

@@ -479,7 +479,7 @@ fn indexed(place: &Place) -> OperandKind {
     }
 }
 
-/// The members of a structure of elementary type, with their names behind that of the label.
+/// The members of a structure of elementary type, with the names that follow that of the label.
 pub(crate) fn members(label: &Label) -> Vec<(String, Device)> {
     let (Type::Structure(_), Stored::Area(area)) = (&label.of, &label.stored) else {
         return Vec::new();

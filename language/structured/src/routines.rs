@@ -64,7 +64,7 @@ impl Compiler<'_> {
         self.moved(result, ty, Some(&copy))
     }
 
-    /// Calls a subroutine: inputs first, outputs that the call gives away behind it.
+    /// Calls a subroutine: inputs first, then CALL, and the outputs that the call names.
     pub(crate) fn call_routine(
         &mut self,
         instance: &Rc<Instance>,

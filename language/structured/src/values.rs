@@ -315,7 +315,7 @@ impl Compiler<'_> {
         target: Option<&Operand>,
     ) -> Made<OperandKind> {
         if steps == Steps::FromBit {
-            return self.from_bit(arg, to, target);
+            return self.bit_value(arg, to, target);
         }
         let source = self.operand(arg, from)?;
         if steps == Steps::Low && !matches!(source.kind, OperandKind::Device(..)) {

@@ -67,7 +67,7 @@ fn timers_switch_at_their_times() {
     assert!(after(false, (1700, 1900)).0[2]);
     assert!(after(true, (1950, 2000)).0[2]);
     assert!(!after(true, (2050, 2400)).0[2]);
-    // An edge right behind the last pulse begins another.
+    // An edge right after the last pulse begins another.
     after(false, (2450, 2450));
     assert!(after(true, (2500, 2500)).0[2]);
 }
@@ -121,7 +121,7 @@ fn real_values_and_large_unsigned_ones() {
     assert_eq!(with(100), ([false, false, true, true], [9, 4, 50, 1]));
 }
 
-/// What the lists need is in all models, but for REAL values and rotations.
+/// All models have the instructions that these lists need; only REAL values and rotations need more.
 #[test]
 fn all_models_run_blocks_arrays_and_structures() {
     let text = "TYPE Pair :\nSTRUCT\n    a : INT;\n    b : BOOL;\n    c : DINT;\nEND_STRUCT\nEND_TYPE\n\

@@ -1,4 +1,4 @@
-//! Structured text as a tree of its own, its text, and its meaning: what IEC 61131-3 says, with integers that wrap as on
+//! Structured text as a separate tree, its text, and its meaning: what IEC 61131-3 says, with integers that wrap as on
 //! the PLC. Nothing of the compiler is used.
 
 use std::collections::BTreeMap;
@@ -188,7 +188,7 @@ fn statement(stmt: &Stmt) -> String {
     }
 }
 
-/// What follows a statement.
+/// Continuation after a statement.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Flow {
     Next,

@@ -216,13 +216,13 @@ impl Gen {
                 let other = self.value(ty, depth, true);
                 Expr::Call("SEL", vec![when, first, other], ty)
             }
-            _ if ty == Ty::Int => self.from_other(depth),
+            _ if ty == Ty::Int => self.converted(depth),
             _ => Expr::Call("ABS", vec![first], ty),
         }
     }
 
     /// An INT from other types, or from a function of the program.
-    fn from_other(&mut self, depth: usize) -> Expr {
+    fn converted(&mut self, depth: usize) -> Expr {
         match self.below(5) {
             0 if self.calls => Expr::Call(
                 "DINT_TO_INT",
