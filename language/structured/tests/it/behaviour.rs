@@ -151,3 +151,31 @@ fn all_models_run_blocks_arrays_and_structures() {
         assert_eq!(machine.last_error().code, 0, "{model:?}");
     }
 }
+
+#[test]
+fn the_example_mixes() {
+    let text = include_str!("../../../../examples/programs/mixer.st");
+    let module = module(text, ModelId::Fx3u);
+    let mut machine = Machine::new(&module);
+    let mut now = 0;
+    let mut after = |machine: &mut Machine, on: &[u32], ms: u32| {
+        for number in 0..3 {
+            machine.set_bit(Class::X, number, on.contains(&number));
+        }
+        for _ in 0..ms / 10 {
+            machine.scan(&mut NoHal, now, 10_000);
+            now += 10;
+        }
+        [0, 1, 2].map(|number| machine.output(number))
+    };
+    for (number, weight) in [(10, 100), (11, 200), (12, 300), (13, 400)] {
+        machine.set_word(Class::D, number, weight);
+    }
+    assert_eq!(after(&mut machine, &[1], 100), [false; 3]);
+    assert_eq!(machine.word(Class::D, 20), Some(250));
+    assert_eq!(after(&mut machine, &[0, 1], 100), [true, false, false]);
+    assert_eq!(after(&mut machine, &[1, 2], 2900), [false, true, false]);
+    assert_eq!(after(&mut machine, &[1, 2], 200), [false, false, true]);
+    assert_eq!(after(&mut machine, &[1, 2], 2000), [false; 3]);
+    assert_eq!(machine.word(Class::D, 0), Some(1));
+}
