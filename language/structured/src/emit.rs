@@ -39,6 +39,9 @@ pub(crate) fn both<A, B>(a: Made<A>, b: Made<B>) -> Made<(A, B)> {
 /// Limit of the length of a program, in instructions. No PLC of the family has room for more.
 const MOST: usize = 200_000;
 
+/// Words of the largest temporary.
+const SLOT: u32 = 4;
+
 /// The state of a compilation.
 pub(crate) struct Compiler<'a> {
     pub labels: Rc<Labels>,
@@ -164,6 +167,8 @@ impl Compiler<'_> {
     pub(crate) fn temporary(&mut self, words: u32) -> Made<Device> {
         match words {
             0 => self.taken(DeviceClass::M, 1),
+            // All begin at the same places, so that none lies within the result of another.
+            _ if self.supply.is_ample() => self.taken(DeviceClass::D, SLOT),
             words => self.taken(DeviceClass::D, words),
         }
     }

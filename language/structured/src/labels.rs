@@ -155,6 +155,11 @@ impl Supply {
         self.m.leave(15);
     }
 
+    /// Returns true while half of the words are left.
+    pub(crate) fn is_ample(&self) -> bool {
+        self.d.left() >= self.d.total() / 2
+    }
+
     /// Keeps all temporaries that were ever taken.
     pub(crate) fn settle(&mut self) {
         self.d.settle();

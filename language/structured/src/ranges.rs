@@ -93,6 +93,11 @@ impl Free {
         self.end.saturating_sub(self.first)
     }
 
+    /// Number of all, taken or not.
+    pub(crate) fn total(&self) -> u32 {
+        self.limit - self.first
+    }
+
     /// Returns to an earlier state: what was taken since is free again.
     pub(crate) fn release(&mut self, earlier: &Free) {
         self.end = earlier.end;
