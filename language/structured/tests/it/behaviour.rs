@@ -179,3 +179,19 @@ fn the_example_mixes() {
     assert_eq!(after(&mut machine, &[1, 2], 2000), [false; 3]);
     assert_eq!(machine.word(Class::D, 0), Some(1));
 }
+
+/// The programs of the book's page compile without findings, for a PLC too.
+#[test]
+fn programs_of_the_book_compile() {
+    let page = include_str!("../../../../docs/src/structured-text.md");
+    let programs = page.split("```text ").skip(1).filter_map(|block| {
+        let (name, rest) = block.split_once('\n')?;
+        let (program, _) = rest.split_once("```")?;
+        name.ends_with(".st").then_some(program)
+    });
+    let programs: Vec<_> = programs.collect();
+    assert_eq!(programs.len(), 3);
+    for program in programs {
+        module(program, ModelId::Fx3u);
+    }
+}
