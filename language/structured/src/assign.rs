@@ -45,7 +45,7 @@ impl Compiler<'_> {
         if let Some(spot) = self.spot(target)?
             && spot.of.plain().is_none()
         {
-            return self.assign_whole(&spot, value, target.span.to(value.span));
+            return self.assign_whole(spot, value, target.span.to(value.span));
         }
         let place = self.target(target)?;
         if place.ty == Ty::Bool {
@@ -141,7 +141,7 @@ impl Compiler<'_> {
     }
 
     /// Copies a structure or array, member by member.
-    fn assign_whole(&mut self, to: &Spot, value: &Expr, span: Span) -> Made<()> {
+    fn assign_whole(&mut self, to: Spot, value: &Expr, span: Span) -> Made<()> {
         let Some(from) = self.spot(value)? else {
             let what = format!("a value is assigned to {}", to.of);
             return fail(codes::ST_TYPE.at(span, what));
@@ -159,6 +159,7 @@ impl Compiler<'_> {
                 _ => error,
             });
         };
+        let (to, from) = (self.fixed(to)?, self.fixed(from)?);
         for leaf in leaves {
             let pair = to
                 .member(&leaf.path, leaf.at, leaf.ty)

@@ -6,6 +6,7 @@ use crate::emit::{Compiler, Made, fail};
 use crate::labels::Stored;
 use crate::literal::Const;
 use crate::types::Ty;
+use crate::values::changes_index;
 use rungc_catalogue::{Drive, Found, Param, Role, Shape};
 use rungc_syntax::diag::{counted, did_you_mean};
 use rungc_syntax::{Diagnostic, Operand, OperandKind, codes};
@@ -172,7 +173,8 @@ impl Compiler<'_> {
             ExprKind::Not(of) => is_logic(of),
             _ => is_logic(enable) || self.is_equality(enable),
         };
-        if !is_compound {
+        // Operands may need Z0, too.
+        if !is_compound && !changes_index(enable) {
             return Ok(None);
         }
         let cond = self.condition(enable)?;
@@ -282,13 +284,19 @@ impl Compiler<'_> {
             Ty::Integer => Ty::Raw16,
             ty => ty,
         };
+        let device = Operand {
+            span: device.value.span,
+            kind: place.operand,
+        };
         if ty == Ty::Time {
-            return self.timed_out(
-                &enable.value,
-                place.operand,
-                device.value.span,
-                &value.value,
-            );
+            let ExprKind::Binary(Op::Div, duration, step) = &value.value.kind else {
+                let what = "the value of a timer counts its steps, and this is a TIME";
+                let error = codes::ST_TYPE.at(value.value.span, what);
+                return fail(error.help("divide it: `T#5s / T#100ms`"));
+            };
+            if self.is_plain(duration) && self.is_plain(step) {
+                return self.timed_out(&enable.value, device, &value.value);
+            }
         }
         let stored = self.enabled(&enable.value)?;
         let value = self.kept_operand(&value.value, ty)?;
@@ -297,27 +305,12 @@ impl Compiler<'_> {
             None => self.condition(&enable.value)?,
         };
         self.enable(&cond);
-        let device = Operand {
-            span: device.value.span,
-            kind: place.operand,
-        };
         self.push("OUT", [device, value]);
         Ok(())
     }
 
     /// A timer for the quotient of two durations, which is computed while it runs, as in the blocks of GX Works2.
-    fn timed_out(
-        &mut self,
-        enable: &Expr,
-        timer: OperandKind,
-        span: rungc_syntax::Span,
-        value: &Expr,
-    ) -> Made<()> {
-        if !matches!(value.kind, ExprKind::Binary(Op::Div, ..)) {
-            let what = "the value of a timer counts its steps, and this is a TIME";
-            let error = codes::ST_TYPE.at(value.span, what);
-            return fail(error.help("divide it: `T#5s / T#100ms`"));
-        }
+    fn timed_out(&mut self, enable: &Expr, timer: Operand, value: &Expr) -> Made<()> {
         let cond = match self.enabled(enable)? {
             Some(stored) => stored,
             None => self.condition(enable)?,
@@ -327,8 +320,7 @@ impl Compiler<'_> {
         self.is_powered = true;
         let value = self.operand(value, Ty::Time);
         self.is_powered = false;
-        let kind = timer;
-        self.push("OUT", [Operand { span, kind }, value?]);
+        self.push("OUT", [timer, value?]);
         Ok(())
     }
 }

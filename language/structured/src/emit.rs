@@ -157,7 +157,7 @@ impl Compiler<'_> {
 
     pub(crate) fn pointer(&mut self) -> Made<Device> {
         self.supply.pointer().ok_or_else(|| {
-            let what = "no pointer P is left for IF, CASE and loops";
+            let what = "no pointer P is left for IF, CASE, loops and subroutines";
             let first = codes::ST_NO_DEVICE.at(self.span, what);
             vec![first.help("the range is that of GX Works2 for this model; join conditions, or split the program")]
         })

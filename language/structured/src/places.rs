@@ -24,6 +24,8 @@ const Z0: Index = Index {
 #[derive(Clone, Debug)]
 pub(crate) struct Scaled<'e> {
     index: &'e Expr,
+    /// The value, if it is computed already.
+    stored: Option<Operand>,
     /// Index of the first element.
     first: i64,
     /// Distance of the elements.
@@ -367,7 +369,12 @@ impl Compiler<'_> {
                         return fail(codes::ST_TYPE.at(index.span, what));
                     }
                     let first = array.first;
-                    spot.scaled.push(Scaled { index, first, each });
+                    spot.scaled.push(Scaled {
+                        index,
+                        stored: None,
+                        first,
+                        each,
+                    });
                     spot.reach = spot.reach.plus(each.times(array.last.abs_diff(first)));
                     Size::default()
                 }
@@ -400,6 +407,28 @@ impl Compiler<'_> {
         Ok(copy)
     }
 
+    fn type_of_index(&self, scaled: &Scaled) -> Made<Ty> {
+        Ok(match self.ty(scaled.index)? {
+            Ty::Timer => Ty::Raw16,
+            ty => ty,
+        })
+    }
+
+    /// Computes the indexes of a structure or array that is copied: its members may be parts of them.
+    pub(crate) fn fixed<'e>(&mut self, mut spot: Spot<'e>) -> Made<Spot<'e>> {
+        for scaled in &mut spot.scaled {
+            if scaled.index.name().is_some() {
+                continue;
+            }
+            let ty = self.type_of_index(scaled)?;
+            let temporary = self.temporary(ty.words())?;
+            let copy = self.here(OperandKind::Device(temporary, None));
+            self.compute(scaled.index, ty, Some(&copy))?;
+            scaled.stored = Some(copy);
+        }
+        Ok(spot)
+    }
+
     /// Computes the distance of an element into Z0.
     fn index(&mut self, place: &Place) -> Made<()> {
         let z0 = self.here(OperandKind::Device(
@@ -411,11 +440,11 @@ impl Compiler<'_> {
         ));
         let mut sum: Option<Operand> = None;
         for (at, scaled) in place.scaled.iter().enumerate() {
-            let ty = match self.ty(scaled.index)? {
-                Ty::Timer => Ty::Raw16,
-                ty => ty,
+            let ty = self.type_of_index(scaled)?;
+            let index = match &scaled.stored {
+                Some(stored) => stored.clone(),
+                None => self.operand(scaled.index, ty)?,
             };
-            let index = self.operand(scaled.index, ty)?;
             self.always(&Self::sized("MOV", ty), [index, z0.clone()]);
             if scaled.first != 0 {
                 let first = self.here(OperandKind::Decimal(scaled.first, None));

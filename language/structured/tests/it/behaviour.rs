@@ -195,3 +195,25 @@ fn programs_of_the_book_compile() {
         module(program, ModelId::Fx3u);
     }
 }
+
+#[test]
+fn structures_nest_and_instances_have_members() {
+    let text = "TYPE Outer :\nSTRUCT\n    one : Inner;\n    all : ARRAY [1..2] OF Inner;\nEND_STRUCT\n\
+         Inner :\nSTRUCT\n    n : INT;\n    f : ARRAY [0..3] OF BOOL;\nEND_STRUCT\nEND_TYPE\n\
+         FUNCTION_BLOCK Counter\nVAR_INPUT\n    Step : INT;\nEND_VAR\nVAR_OUTPUT\n    Sum : INT;\nEND_VAR\n\
+         VAR\n    Last : Inner;\nEND_VAR\nSum := Sum + Step;\nLast.n := Step;\nEND_FUNCTION_BLOCK\n\
+         PROGRAM P\nVAR\n    o : Outer;\n    up : Counter;\nEND_VAR\n\
+         o.all[D0].n := 5;\no.all[D0].f[D1] := TRUE;\nY0 := o.all[2].f[3];\nY1 := o.all[2].f[2];\n\
+         o.one.n := D0;\no.one := o.all[o.one.n];\nD2 := o.one.n;\nup(Step := D2 + 1);\nD3 := up.Sum;\nD4 := up.Last.n;\n\
+         END_PROGRAM\n";
+    let module = module(text, ModelId::Fx3u);
+    let mut machine = Machine::new(&module);
+    machine.set_word(Class::D, 0, 2);
+    machine.set_word(Class::D, 1, 3);
+    for _ in 0..2 {
+        machine.scan(&mut NoHal, 0, 10_000);
+    }
+    assert_eq!([0, 1].map(|number| machine.output(number)), [true, false]);
+    let words = [2, 3, 4].map(|number| machine.word(Class::D, number).unwrap());
+    assert_eq!(words, [5, 12, 6]);
+}

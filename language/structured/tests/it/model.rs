@@ -62,6 +62,8 @@ pub enum Stmt {
     Repeat(&'static str, i64, Expr, Vec<Stmt>),
     ExitIf(Expr),
     ReturnIf(Expr),
+    /// `MOV` with its condition.
+    Move(Expr, Place, Place),
     /// Instance, its block, inputs, and the variable for the first output.
     Block(&'static str, &'static str, Vec<(&'static str, Expr)>, Place),
 }
@@ -178,6 +180,10 @@ fn statement(stmt: &Stmt) -> String {
         ),
         Stmt::ExitIf(when) => format!("IF {} THEN EXIT; END_IF;\n", when.text()),
         Stmt::ReturnIf(when) => format!("IF {} THEN RETURN; END_IF;\n", when.text()),
+        Stmt::Move(when, from, to) => {
+            let (from, to) = (parts(&from.parts), parts(&to.parts));
+            format!("MOV({}, {from}, {to});\n", when.text())
+        }
         Stmt::Block(instance, _, inputs, output) => {
             let inputs: String = inputs
                 .iter()
@@ -322,6 +328,12 @@ impl<'u> Machine<'u> {
             Stmt::ExitIf(when) if self.value(when) == 1 => return Flow::Exit,
             Stmt::ReturnIf(when) if self.value(when) == 1 => return Flow::Return,
             Stmt::ExitIf(_) | Stmt::ReturnIf(_) => {}
+            Stmt::Move(when, from, to) => {
+                if self.value(when) == 1 {
+                    let (from, path) = (self.path(&from.parts), self.path(&to.parts));
+                    self.set(&path, to.ty, self.get(&from));
+                }
+            }
             Stmt::Block(instance, block, inputs, output) => {
                 let values: Vec<_> = inputs.iter().map(|(_, value)| self.value(value)).collect();
                 let result = self.block(instance, block, &values);

@@ -328,6 +328,10 @@ impl Gen {
                 Stmt::Assign(place(to, ty), value)
             }
             1 => Stmt::Copy(self.structure(1), self.structure(1)),
+            2 if self.random.bool() => {
+                let (from, to) = (self.place(Ty::Int, 1), self.scalar(Ty::Int));
+                Stmt::Move(when(self), from, to)
+            }
             2 => self.block(),
             3 if self.loops > 0 => Stmt::ExitIf(when(self)),
             3..=7 => {
