@@ -263,8 +263,18 @@ impl Labels {
 
     fn variable(&mut self, variable: &Variable, is_constant: bool, role: Role, cx: &mut Declaring) {
         if let Some(unit) = block_of(variable, cx.units) {
+            let is_plain = variable.of.bounds.is_empty() && variable.place.is_none();
             for name in &variable.names {
-                self.instance(name, unit, cx);
+                match is_plain {
+                    true => self.instance(name, unit, cx),
+                    false => self.insert(Label::new(name, Type::Plain(Ty::Raw16), role)),
+                }
+            }
+            if !is_plain {
+                let what = "arrays of blocks, and blocks at a device, are not compiled yet";
+                let error = codes::ST_UNSUPPORTED.at(variable.span, what);
+                cx.found
+                    .push(error.help("declare each instance: `Name : BLOCK;`"));
             }
             return;
         }
@@ -464,12 +474,11 @@ pub(crate) fn value_in((value, of): Literal, ty: Ty, span: Span) -> Result<Const
 }
 
 /// The function block that a declaration names as its type.
-pub(crate) fn block_of(variable: &Variable, units: &[Unit]) -> Option<usize> {
+fn block_of(variable: &Variable, units: &[Unit]) -> Option<usize> {
     let name = &variable.of.name.text;
     let is_this =
         |unit: &Unit| unit.kind == UnitKind::Block && unit.name.text.eq_ignore_ascii_case(name);
-    let is_plain = variable.of.bounds.is_empty() && variable.place.is_none();
-    units.iter().position(is_this).filter(|_| is_plain)
+    units.iter().position(is_this)
 }
 
 /// The device that a declaration states.

@@ -25,7 +25,9 @@ pub(crate) fn add(text: &mut Text, tokens: &[Lexeme]) {
     let tokens = token::tokens(BLOCKS);
     for mut unit in parse::parse(&tokens, &mut Vec::new()).units {
         let is = |other: &str| unit.name.text.eq_ignore_ascii_case(other);
-        let is_declared = text.units.iter().any(|own: &Unit| is(&own.name.text));
+        let units = text.units.iter().map(|own: &Unit| &own.name);
+        let structures = text.structures.iter().map(|own| &own.name);
+        let is_declared = units.chain(structures).any(|own| is(&own.text));
         if wanted.iter().any(|name| is(name)) && !is_declared {
             unit.is_library = true;
             text.units.push(unit);

@@ -204,7 +204,8 @@ fn structures_nest_and_instances_have_members() {
          VAR\n    Last : Inner;\nEND_VAR\nSum := Sum + Step;\nLast.n := Step;\nEND_FUNCTION_BLOCK\n\
          PROGRAM P\nVAR\n    o : Outer;\n    up : Counter;\nEND_VAR\n\
          o.all[D0].n := 5;\no.all[D0].f[D1] := TRUE;\nY0 := o.all[2].f[3];\nY1 := o.all[2].f[2];\n\
-         o.one.n := D0;\no.one := o.all[o.one.n];\nD2 := o.one.n;\nup(Step := D2 + 1);\nD3 := up.Sum;\nD4 := up.Last.n;\n\
+         o.one.n := D0;\no.one := o.all[o.one.n];\nD2 := o.one.n;\n\
+         up(Step := D2 + 1);\nD3 := up.Sum;\nD4 := up.Last.n;\n\
          END_PROGRAM\n";
     let module = module(text, ModelId::Fx3u);
     let mut machine = Machine::new(&module);

@@ -185,6 +185,9 @@ fn what_is_not_compiled_has_a_reason() {
         "TYPE A :\nSTRUCT\n    b : B;\n    t : TIMER;\nEND_STRUCT\nB :\nSTRUCT\n    a : A;\n    n : INT := 5;\n\
          END_STRUCT\nEND_TYPE\nPROGRAM P\nVAR\n    a : A;\nEND_VAR\nEND_PROGRAM\n",
     );
+    all += &shown(
+        "PROGRAM P\nVAR\n    t : ARRAY [0..3] OF TON;\n    u AT D0 : CTU;\nEND_VAR\nEND_PROGRAM\n",
+    );
     all += &shown(&parts(
         "i := One;\nOne := 5;\nOne := x;\nx[c] := 1;\nx[10] := 1;\nOne.Sped := 1;\nx := x;\nSET(c, f[i]);\n\
          MOV(TRUE, x[i], x[j]);\nFOR x[i] := 0 TO 3 DO END_FOR;\ni := MAX(i);\ni := MAX(i, c);\ni := SHL(i, j);\n\
