@@ -141,6 +141,11 @@ pub struct Capture {
 }
 
 impl Capture {
+    /// The values of the register that the manual defines, from that of power-on to the one without interrupts.
+    pub fn modes(&self) -> impl Iterator<Item = u16> + use<> {
+        [0x00, 0x10, 0x20, 0x11, 0x21, 0x31].into_iter()
+    }
+
     /// Mask and value of the register's bits for which an edge interrupts.
     pub fn demands(&self, input: u32, kind: EdgeKind) -> Option<(i32, i32)> {
         match (self.inputs.iter().position(|&own| own == input)?, kind) {

@@ -223,6 +223,13 @@ super::codes! {
     wrong: "LD M8000\nOUT C255 K1000\nDHSCS K100 C255 Y10 K0\nDHSCS K150 C255 Y11 K0\nEND\n",
     right: "LD M8000\nOUT C255 K1000\nDHSCS K100 C255 Y10 K0\nDHSCS K150 C255 Y11 K1\nEND\n";
 
+    NEVER_REQUESTED = "W0250" "never-requested" Warning None,
+    "interrupt routine that can never run",
+    "Nothing requests the routine, or nothing allows it. On HM, D211 selects the edges of X004 and X005 that interrupt, D261 those of X006 and X007; both are H00 at power-on, with which X005 and X007 do not interrupt (hm-motion-controller §5.5.6). The masks of HM's timer interrupts, M8056 to M8058, are on at power-on; I001, I201, I020 to I050 and I900 to I907 are requested by relays that the program sets. I010 to I060 of other models need a comparison such as DHSCS that names them, the ends of pulses (I502 to I506) and the rows of a table of counts of H1U and H2U a relay that allows them. A routine that the program requests by its relay is not reported, nor is one whose relay or register something outside the program writes (`[hmi] writes`).",
+    model: "hm",
+    wrong: "EI\nLD X0\nOUT Y0\nFEND\nI101\nLD M8000\nINC D1000\nIRET\nEND\n",
+    right: "EI\nLD M8002\nMOV H20 D211\nLD X0\nOUT Y0\nFEND\nI101\nLD M8000\nINC D1000\nIRET\nEND\n";
+
     INERT_DEVICE = "W0301" "inert-device" Warning None,
     "special device that has no effect in a compiled program",
     "On the PLC, this special relay or register configures or reports something: a CAN network, a special module that rungc.toml does not list, the delay of an interrupt. Compiled programs do not have that function, so it is an ordinary relay or register there. The help page of each model (`rungc book special-devices/index`) and `rungc explain D8393` show which devices work. Devices that only report faults that cannot happen here (a low battery, a failed supply) are not reported.",

@@ -13,6 +13,7 @@ mod ports;
 mod ranges;
 mod rendered;
 mod resets;
+mod routines;
 mod serial;
 mod warnings;
 mod worst;

@@ -19,6 +19,7 @@ mod inert;
 mod jumped_over;
 mod labels;
 mod modules;
+mod never_requested;
 mod once;
 mod one_output;
 mod operation_errors;
@@ -66,6 +67,7 @@ pub fn check(resolved: &Resolved) -> Diagnostics {
     let nesting = structure::check(&code, &pointers, &mut out);
     labels::check(&code, &pointers, &nesting, &mut out);
     fast_inputs::check(&code, &pointers, &mut out);
+    never_requested::check(&code, &pointers, &mut out);
     once::check(&code, &mut out);
     ports::check(&code, &mut out);
     unimplemented::check(&code, &mut out);

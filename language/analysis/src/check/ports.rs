@@ -94,6 +94,13 @@ pub(super) fn setups_of(code: &Code) -> Vec<Setup> {
     wirings.map(|wiring| setup(facts, wiring)).collect()
 }
 
+/// Returns true if something at a port, or a server that the PLC asks, may write any register.
+pub(super) fn may_be_written(code: &Code) -> bool {
+    let parameters = code.resolved.program.parameters.as_ref();
+    parameters.is_some_and(|parameters| !parameters.requests.is_empty())
+        || setups_of(code).iter().any(Setup::exchanges)
+}
+
 /// Set-up of a port according to the facts.
 fn setup(facts: &facts::Facts, wiring: &'static PortWiring) -> Setup {
     let protocol = facts.protocol(wiring);

@@ -3,7 +3,7 @@
 
 use super::Code;
 use super::overlaps::clears;
-use super::ports::{self, Roles};
+use super::ports::{Roles, may_be_written};
 use crate::accesses::Access;
 use crate::latches;
 use rungc_catalogue::{Basic, Lower};
@@ -260,13 +260,6 @@ impl<'a, 'p> Unused<'a, 'p> {
 
 fn is_register(class: DeviceClass) -> bool {
     matches!(class, DeviceClass::D | DeviceClass::R)
-}
-
-/// Returns true if something at a port, or a server that the PLC asks, may write any register.
-fn may_be_written(code: &Code) -> bool {
-    let parameters = code.resolved.program.parameters.as_ref();
-    parameters.is_some_and(|parameters| !parameters.requests.is_empty())
-        || ports::setups_of(code).iter().any(ports::Setup::exchanges)
 }
 
 impl Class {

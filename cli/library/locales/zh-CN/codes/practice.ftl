@@ -178,6 +178,11 @@ W0238 = 写入了 HM 系统使用的寄存器
 W0239 = 同一比较区有两条高速计数器比较指令
     .text = HM 的 DHSCS、DHSCR 和 DHSZ 共用比较区 0～5，一个比较区同一时间只执行一条指令（hm-motion-controller 8.3.14 节）。由相同触点驱动的两条指令，或其中一条始终被驱动的两条指令，须各用一个比较区。编译后的程序两条都执行。
 
+# interrupt routine that can never run
+# Nothing requests the routine, or nothing allows it. On HM, D211 selects the edges of X004 and X005 that interrupt, D261 those of X006 and X007; both are H00 at power-on, with which X005 and X007 do not interrupt (hm-motion-controller §5.5.6). The masks of HM's timer interrupts, M8056 to M8058, are on at power-on; I001, I201, I020 to I050 and I900 to I907 are requested by relays that the program sets. I010 to I060 of other models need a comparison such as DHSCS that names them, the ends of pulses (I502 to I506) and the rows of a table of counts of H1U and H2U a relay that allows them. A routine that the program requests by its relay is not reported, nor is one whose relay or register something outside the program writes (`[hmi] writes`).
+W0250 = 永远不会执行的中断程序
+    .text = 没有任何东西请求此中断程序，或没有任何东西允许它执行。在 HM 上，D211 选择 X004 和 X005 的哪些边沿进入中断，D261 选择 X006 和 X007 的；两者上电时都是 H00，此时 X005 和 X007 不进入中断（hm-motion-controller 5.5.6 节）。HM 定时中断的禁止标志 M8056～M8058 上电时为 ON；I001、I201、I020～I050 和 I900～I907 由程序置位的继电器请求。其他机型的 I010～I060 需要一条以其为目标的比较指令，如 DHSCS；H1U 和 H2U 的脉冲结束中断（I502～I506）和计数表各行的中断需要允许它们的继电器。程序通过继电器请求的中断程序不报告；其继电器或寄存器由程序之外写入的（`[hmi] writes`）也不报告。
+
 # special device that has no effect in a compiled program
 # On the PLC, this special relay or register configures or reports something: a CAN network, a special module that rungc.toml does not list, the delay of an interrupt. Compiled programs do not have that function, so it is an ordinary relay or register there. The help page of each model (`rungc book special-devices/index`) and `rungc explain D8393` show which devices work. Devices that only report faults that cannot happen here (a low battery, a failed supply) are not reported.
 W0301 = 编译后的程序中不起作用的特殊软元件

@@ -115,7 +115,10 @@ impl Facts {
         });
         let named = (0..code.len).filter_map(|i| super::port_register(code, i));
         let watched = BTreeSet::from_iter(devices.chain(named));
-        let named = watched.iter().copied().chain(NETWORK).collect();
+        let captures = code.model().interrupts.captures.iter();
+        let captures = captures.map(|capture| d(capture.register));
+        let named = watched.iter().copied().chain(NETWORK);
+        let named = named.chain(captures).collect();
         let mut facts = Facts {
             model: code.model(),
             writes: BTreeMap::new(),
@@ -247,6 +250,22 @@ impl Facts {
         let written = self.writes(device).iter().map(|write| write.value);
         let values = std::iter::once(Some(self.at_power_on(device))).chain(written);
         values.collect()
+    }
+
+    /// The values that a register may have from the end of the first scan on, each with the instruction that writes
+    /// it, or `None` at power-on. `None` if it may have any.
+    pub(in super::super) fn settings(
+        &self,
+        register: Register,
+    ) -> Option<Vec<(u16, Option<usize>)>> {
+        let device = d(register);
+        let writes = self.writes(device);
+        let certain = writes.iter().any(|write| write.first_scan);
+        let at_power_on = (!certain).then(|| Some((self.at_power_on(device), None)));
+        let written = writes
+            .iter()
+            .map(|write| Some((write.value?, Some(write.at))));
+        at_power_on.into_iter().chain(written).collect()
     }
 
     /// Returns true if a relay may be on at some time.
