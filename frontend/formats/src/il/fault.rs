@@ -165,6 +165,13 @@ impl Faults {
         self.0.push(fault);
     }
 
+    /// Those of the part of the line that begins here and was read last.
+    pub fn since(&self, start: usize) -> &[Fault] {
+        let before = self.0.iter().rev();
+        let count = before.take_while(|fault| fault.span.start >= start).count();
+        &self.0[self.0.len() - count..]
+    }
+
     /// All of them.
     #[cfg(test)]
     pub fn iter(&self) -> impl Iterator<Item = &Fault> {
@@ -202,6 +209,11 @@ impl<'s, I: Input<'s>> Inspector<'s, I> for Faults {
 }
 
 impl Kind {
+    /// Returns true if the number of the operand is not known.
+    pub(super) fn loses_number(self) -> bool {
+        self == Kind::DeviceNumber
+    }
+
     /// The diagnostic for this fault at `span`; `text` is the text there, folded.
     fn diagnostic(self, span: Span, text: &str) -> Diagnostic {
         match self {

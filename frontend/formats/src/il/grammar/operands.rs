@@ -2,7 +2,7 @@
 
 use super::super::fault::{Faults, Kind, mistyped_digit};
 use super::tokens::{blanks, digits, foreign_comment_start, letter, word, word_end};
-use super::{Rule, device_field, parse, report, span};
+use super::{Matched, Rule, device_field, parse, report, span};
 use chumsky::prelude::*;
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind};
 use smol_str::SmolStr;
@@ -26,13 +26,34 @@ pub(super) fn operand<'s>() -> impl Rule<'s, Operand> {
     )))
 }
 
-/// An operand where it is, up to the end of its word.
+/// An operand where it is, up to the end of its word. One with an error is unreadable: no later check reports it again.
 pub(super) fn placed<'s>(kind: impl Rule<'s, OperandKind>) -> impl Rule<'s, Operand> {
-    kind.map_with(|kind, e| Operand {
-        span: span(e.span()),
-        kind,
+    kind.map_with(|kind, e: &mut Matched| {
+        let place = e.span();
+        let kind = match e.state().since(place.start) {
+            [] => kind,
+            faults if faults.iter().any(|fault| fault.kind.loses_number()) => {
+                OperandKind::Unreadable(None)
+            }
+            _ => OperandKind::Unreadable(named(kind)),
+        };
+        Operand {
+            span: span(place),
+            kind,
+        }
     })
     .then_ignore(word_end())
+}
+
+/// The device that an operand names, or was meant to name.
+fn named(kind: OperandKind) -> Option<Device> {
+    match kind {
+        OperandKind::Device(device, _)
+        | OperandKind::WordBit(device, ..)
+        | OperandKind::Nibbles(_, device, _) => Some(device),
+        OperandKind::Unreadable(meant) => meant,
+        _ => None,
+    }
 }
 
 fn class<'s>() -> impl Rule<'s, DeviceClass> {
