@@ -12,6 +12,7 @@ use crate::text::{Joined, Lines, clean};
 use csv::{StringRecord, WriterBuilder};
 use layout::Layout;
 use rows::Rows;
+pub(crate) use rows::unspaced;
 use rungc_syntax::{
     Diagnostics, Instr, Operand, OperandKind, Operands, Program, Remarks, SourceKind, Span, codes,
 };
@@ -26,6 +27,7 @@ pub(crate) const INFORMATION: &str = "PLC Information:";
 pub(crate) fn read(name: &str, text: &str, layout: Layout) -> Read {
     let mut reader = Reader::new(layout);
     let mut head = ExportHead::default();
+    let text = &*unspaced(text);
     let rows = Rows::new(text, layout.delimiter, |line| layout.is_row(line));
     for (number, row) in rows.enumerate() {
         let record = &row.record;

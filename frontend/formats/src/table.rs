@@ -1,6 +1,6 @@
 //! Tables of a user, as spreadsheets write them: CSV in any common encoding, with tabs, semicolons or commas.
 
-use crate::csv::table;
+use crate::csv::{table, unspaced};
 use crate::encoding;
 use encoding_rs::Encoding;
 
@@ -44,6 +44,7 @@ pub fn read_table(
         return Err(TableError::Encoding);
     }
     let (stated, text) = stated(&text);
+    let text = &*unspaced(text);
     let delimiter = stated.unwrap_or_else(|| usual(text));
     let mut rows = Vec::new();
     // Line ends in cells are not rows of a spreadsheet.
@@ -72,7 +73,7 @@ pub fn read_table(
 }
 
 /// The separator that the line `sep=;` of Excel states, and the text below it.
-fn stated(text: &str) -> (Option<u8>, &str) {
+pub(crate) fn stated(text: &str) -> (Option<u8>, &str) {
     let (first, rest) = text.split_once('\n').unwrap_or((text, ""));
     match first.trim_end().as_bytes() {
         [b's' | b'S', b'e' | b'E', b'p' | b'P', b'=', separator] => (Some(*separator), rest),
@@ -131,6 +132,10 @@ mod tests {
         );
         is(
             "sep=;\nUrsache;Y0\n\n\"Not-Halt; Tür\";X\n".as_bytes(),
+            &rows,
+        );
+        is(
+            "\"Ursache\", \"Y0\"\n\n \"Not-Halt; Tür\" , X\n".as_bytes(),
             &rows,
         );
         let wide: Vec<u8> = "\u{feff}Ursache\tY0\r\n\r\nNot-Halt; Tür\tX\r\n"

@@ -1,7 +1,7 @@
 //! The editors' export of device comments: a table of devices and texts.
 
-use super::layout::{HEAD_ROWS, is_instruction_heading, plain, table};
-use super::rows::{self, Row, Rows};
+use super::layout::{HEAD_ROWS, delimiters, is_instruction_heading, plain, table};
+use super::rows::{self, Row, Rows, unspaced};
 use crate::il;
 use crate::text::clean;
 use csv::StringRecord;
@@ -31,6 +31,7 @@ const DELIMITERS: [u8; 3] = [b'\t', b',', b';'];
 /// The rows of an export of device comments, by the separator that gives the most devices, and the columns of devices
 /// and comments.
 fn comment_rows(text: &str) -> (Vec<Row>, [usize; 2]) {
+    let text = &*unspaced(text);
     let of = |delimiter| {
         let records = table(text, delimiter).into_records();
         let head: Vec<StringRecord> = records.flatten().take(HEAD_ROWS).collect();
@@ -44,9 +45,12 @@ fn comment_rows(text: &str) -> (Vec<Row>, [usize; 2]) {
         let devices = rows.iter().filter(|row| is_comment(&row.record)).count();
         (devices, rows, columns)
     };
-    let tables = DELIMITERS.map(of).into_iter();
+    let tables: Vec<_> = delimiters(text).map(of).collect();
     // The first of equals.
-    let best = tables.rev().max_by_key(|(devices, ..)| *devices);
+    let best = tables
+        .into_iter()
+        .rev()
+        .max_by_key(|(devices, ..)| *devices);
     best.map_or_else(Default::default, |(_, rows, columns)| (rows, columns))
 }
 

@@ -1,8 +1,9 @@
 //! Layout of a list export: its separator, its columns, and the rows above the list.
 
-use super::rows;
+use super::rows::{self, unspaced};
 use crate::gx::cpu;
 use crate::il;
+use crate::table::stated;
 use csv::{ReaderBuilder, StringRecord};
 
 /// The columns in the editors' order, by their English names.
@@ -74,10 +75,16 @@ impl Layout {
 
 /// Detects a list export and its layout.
 pub(crate) fn detect(text: &str) -> Option<Layout> {
-    [b'\t', b',', b';']
-        .into_iter()
+    let text = &*unspaced(text);
+    delimiters(text)
         .find_map(|delimiter| with_header(text, delimiter))
         .or_else(|| by_shape(text))
+}
+
+/// The separators that a table may have; first the one that its line `sep=;` states.
+pub(super) fn delimiters(text: &str) -> impl Iterator<Item = u8> + use<> {
+    let (stated, _) = stated(text);
+    stated.into_iter().chain([b'\t', b',', b';'])
 }
 
 /// The layout of an export without headings in a known language: quoted fields, or step numbers before instructions.
@@ -96,7 +103,9 @@ fn by_shape(text: &str) -> Option<Layout> {
         let may_be_table = separator == ';' || !commented;
         may_be_table && lines().any(|line| number(line).is_some())
     };
-    let (delimiter, certain) = if quoted("\"\t\"") {
+    let (delimiter, certain) = if let (Some(stated), _) = stated(text) {
+        (stated, true)
+    } else if quoted("\"\t\"") {
         (b'\t', true)
     } else if quoted("\",\"") || numbered(',') {
         (b',', true)

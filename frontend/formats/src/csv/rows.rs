@@ -2,6 +2,8 @@
 
 use super::layout::table;
 use csv::{Position, StringRecord};
+use std::borrow::Cow;
+use std::ops::Range;
 
 /// Advice about an unclosed quote.
 pub(super) const HELP: &str = "write a text that begins with a quote, or holds a separator, as `\"…\"`, with quotes in it doubled";
@@ -13,7 +15,59 @@ pub(super) fn alone(line: &str, delimiter: u8) -> Option<StringRecord> {
     if first.matches('"').count() % 2 == 1 {
         return None;
     }
-    table(line, delimiter).into_records().next()?.ok()
+    table(&unspaced(line), delimiter)
+        .into_records()
+        .next()?
+        .ok()
+}
+
+/// A table without blanks beside the quotes around its cells (`"LD", "X000"`): after a blank, a quote is part of its
+/// cell. Lines stay lines.
+pub(crate) fn unspaced(text: &str) -> Cow<'_, str> {
+    let mut out = String::new();
+    let (mut copied, mut start) = (0, 0);
+    for line in text.split_inclusive('\n') {
+        for blanks in spaced_quotes(line) {
+            out.push_str(&text[copied..start + blanks.start]);
+            copied = start + blanks.end;
+        }
+        start += line.len();
+    }
+    match copied {
+        0 => Cow::Borrowed(text),
+        _ => Cow::Owned(out + &text[copied..]),
+    }
+}
+
+/// The blanks before the quotes that open the cells of a line, and after those that close them.
+fn spaced_quotes(line: &str) -> Vec<Range<usize>> {
+    const SEPARATORS: [char; 3] = [',', ';', '\t'];
+    let mut found = Vec::new();
+    let mut inside = false;
+    let mut rest = line;
+    while let Some(at) = rest.find('"') {
+        let after = rest[at..].trim_start_matches('"');
+        let count = rest.len() - at - after.len();
+        let begin = line.len() - rest.len() + at;
+        rest = after;
+        let before = line[..begin].trim_end_matches(' ');
+        let is_first = before.is_empty() || before.ends_with(SEPARATORS);
+        let next = after.trim_start_matches(' ');
+        let is_last = next.trim_end().is_empty() || next.starts_with(SEPARATORS);
+        // Doubled quotes are part of a text, but for those of an empty cell.
+        let is_odd = count % 2 == 1;
+        let opens = !inside && is_first && (is_odd || is_last);
+        if opens && before.len() < begin {
+            found.push(before.len()..begin);
+        }
+        let was_inside = inside || opens;
+        inside = was_inside && (inside != is_odd);
+        let end = line.len() - after.len();
+        if was_inside && !inside && is_last && next.len() < after.len() {
+            found.push(end..line.len() - next.len());
+        }
+    }
+    found
 }
 
 /// A row of a table.

@@ -273,6 +273,44 @@ fn headings_in_any_language_are_known() {
     }
 }
 
+/// Tables as spreadsheets and people write them: a blank after each separator, or the line of Excel that states it.
+#[test]
+fn separators_may_be_followed_by_blanks_or_stated() {
+    let rows = [
+        "'Step No.'|'Line Statement'|'Instruction'|'I/O(Device)'|'Blank'|'PI Statement'|'Note'",
+        "'0'|''|'LD'|'X000'|''|''|'a ''b'', c; d'",
+        "'1'|'two; parts'|''|''|''|''|''",
+        "'1'|''|'$MOV'|'''a b'''|''|''|''",
+        "''|''|''|'D0'|''|''|'at\nthe end'",
+        "'6'|''|'END'|''|''|''|''",
+    ];
+    let quoted = rows.map(|row| row.replace('\'', "\""));
+    for (head, separator) in [
+        ("", ", "),
+        ("", ",  "),
+        ("", "; "),
+        ("", " ; "),
+        ("", "\t "),
+        ("sep=;\r\n", ";"),
+        ("sep=;\n", "; "),
+        ("SEP=,\r\n", ", "),
+        ("\"sep=;\"\n", ";"),
+        ("sep=|\r\n", "|"),
+    ] {
+        for rows in [&quoted[..], &quoted[1..]] {
+            let text = rows.join("\n").replace('|', separator);
+            let text = format!("{head}{text}");
+            let read = read_bytes("MAIN.csv", text.as_bytes()).unwrap();
+            assert_eq!(read.diagnostics.iter().count(), 0, "{text}");
+            let program = &read.program;
+            let expected = ["LD X000", "$MOV \"a b\" D0", "END"];
+            assert_eq!(texts(program), expected, "{text}");
+            assert_eq!(program.instrs[1].statement(), Some("two; parts"), "{text}");
+            assert_eq!(program.instrs[0].note(), Some("a \"b\", c; d"), "{text}");
+        }
+    }
+}
+
 /// Cells that hold several operands, or a whole instruction, as people write who edit a table by hand.
 #[test]
 fn cells_may_hold_several_words() {

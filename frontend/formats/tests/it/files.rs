@@ -110,6 +110,8 @@ fn device_comments_are_found_by_their_columns() {
         "X000,start\r\nX8,bad\r\nY001,\"motor, left\"\r\nM0,\"a\tb\"\r\n",
         "X000,,start\r\nX8,,bad\r\nY001,,\"motor, left\"\r\n",
         "X000\t\t\tstart\r\nX8\t\t\tbad\r\nY001\t\t\tmotor, left\r\n",
+        "\"Device\", \"Comment\"\r\n\"X000\", \"start\"\r\n\"X8\", \"bad\"\r\n\"Y001\", \"motor, left\"\r\n",
+        "sep=|\r\nX000|start\r\nX8|bad\r\nY001|motor, left\r\n",
     ];
     std::fs::write(folder.path().join("MAIN.csv"), export("FXCPU FX3S")).unwrap();
     for table in tables {
