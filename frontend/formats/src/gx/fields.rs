@@ -40,6 +40,21 @@ impl<'b> Fields<'b> {
         &self.bytes[self.at..]
     }
 
+    /// What `read` takes, if it is right; if not, the next field is the same.
+    pub fn checked<T>(
+        &mut self,
+        read: impl FnOnce(&mut Self) -> Option<T>,
+        is_right: impl FnOnce(&T) -> bool,
+    ) -> Option<T> {
+        let start = self.at;
+        let value = read(self)?;
+        if is_right(&value) {
+            return Some(value);
+        }
+        self.at = start;
+        None
+    }
+
     pub fn u8(&mut self) -> Option<u8> {
         self.take(1).map(|bytes| bytes[0])
     }
@@ -63,5 +78,30 @@ impl<'b> Fields<'b> {
             .map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER))
             .collect();
         Some(text)
+    }
+
+    /// A string as [`Fields::text`] that is certain to be one. If it is not, the next field is the first wrong unit:
+    /// one that is not part of a character, a control character other than a tab or line end, a zero before the end, or
+    /// the end without a zero.
+    pub fn whole_text(&mut self) -> Option<String> {
+        let start = self.at;
+        let text = self.text()?;
+        let first = start + 4;
+        let count = (self.at - first) / 2;
+        let is_wrong = |c: char| {
+            c == char::REPLACEMENT_CHARACTER || c.is_control() && !matches!(c, '\t' | '\r' | '\n')
+        };
+        let units = |text: &str| text.encode_utf16().count();
+        let wrong = match text.find(is_wrong) {
+            Some(at) => Some(units(&text[..at])),
+            None => Some(units(&text)).filter(|&length| count > 0 && length + 1 != count),
+        };
+        match wrong {
+            None => Some(text),
+            Some(unit) => {
+                self.at = first + 2 * unit;
+                None
+            }
+        }
     }
 }

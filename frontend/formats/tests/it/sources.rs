@@ -1,6 +1,6 @@
 //! Sources of GX Works2 projects: labels, structures, POUs, and the devices that the compiler chose.
 
-use crate::fixture::sources::{COMPILED, label, labelled, locals};
+use crate::fixture::sources::{COMPILED, Label, globals, label, labelled, locals};
 use crate::fixture::{Part, project, qcd, replace, simple};
 use rungc_frontend::sources::{Body, Class, Pou, PouKind, SourceFile, Sources};
 use rungc_frontend::{Read, read_bytes};
@@ -238,6 +238,107 @@ fn damaged_text_is_reported() {
     let at = places.position(|own| own == end).unwrap();
     part.content[at..].fill(0);
     assert_eq!(sources(&parts).unread[0].at, at);
+}
+
+/// Damage in a text of a label table, of a structure or of a diagram is named with its place (W0525).
+#[test]
+fn damaged_labels_are_reported() {
+    let words = [
+        "Start",
+        "BOOL",
+        "M100",
+        "Start (* button *)",
+        "Axis1",
+        "M200",
+        "Most",
+        "ARRAY [0..2] OF DINT",
+        "Position",
+        "INT",
+        "of it",
+        "Count1",
+        "Counter",
+        "Step",
+        "Value",
+        "Twice",
+        "Sum",
+        "Half",
+        "Height",
+    ];
+    let is_table = |name: &str| {
+        ["gh", "lh", "str", "lns", "lnl"]
+            .iter()
+            .any(|e| name.ends_with(e))
+    };
+    let mut seen = BTreeSet::new();
+    for (index, part) in labelled().iter().enumerate() {
+        let is_diagram = part.name == "Twice.Program.pou";
+        for word in words.iter().filter(|_| is_table(part.name) || is_diagram) {
+            let units: Vec<u8> = word.encode_utf16().flat_map(u16::to_le_bytes).collect();
+            // A whole text, with the zero at its end.
+            let whole = [&units[..], &[0, 0]].concat();
+            let places = part.content.windows(whole.len()).enumerate();
+            let places = places.filter(|(_, own)| *own == whole).map(|(at, _)| at);
+            for at in places.flat_map(|at| (0..units.len() / 2).map(move |unit| at + 2 * unit)) {
+                for damage in [[0, 0], [1, 0], [0, 0xD8], [0x7F, 0]] {
+                    let mut parts = labelled();
+                    parts[index].content[at..at + 2].copy_from_slice(&damage);
+                    let read = read(&parts);
+                    let found = read
+                        .diagnostics
+                        .iter()
+                        .filter(|found| found.code == "W0525");
+                    assert_eq!(found.count(), 1, "{} {word} {at} {damage:?}", part.name);
+                    let unread = &read.sources.unwrap().unread;
+                    // Of a diagram, the part of the network is named.
+                    let is_there = unread[0].at == at || is_diagram && unread[0].at > at;
+                    assert!(is_there, "{} {word} {damage:?} {unread:?}", part.name);
+                }
+                seen.insert(*word);
+            }
+        }
+    }
+    assert_eq!(seen.len(), words.len(), "{seen:?}");
+}
+
+/// Fields of a row that state the same must agree.
+#[test]
+fn label_tables_that_contradict_themselves_are_reported() {
+    let table = |label: Label, code: Option<u32>| {
+        let mut parts = labelled();
+        let mut content = globals(&[label]);
+        if let Some(code) = code {
+            // The code is before the name of the type, which is empty.
+            let at = content.len() - 10;
+            content[at..at + 4].copy_from_slice(&code.to_le_bytes());
+        }
+        replace(&mut parts, "Global1.gh", content);
+        sources(&parts).unread.len()
+    };
+    let plain = label("Start", "BOOL", 8);
+    assert_eq!(table(plain, None), 0);
+    assert_eq!(table(plain, Some(1)), 0);
+    assert_eq!(table(plain, Some(2)), 1);
+    assert_eq!(table(label("Start", "BOOM", 8), Some(1)), 1);
+    assert_eq!(table(label("Sta rt", "BOOL", 8), None), 1);
+    assert_eq!(table(label("启动_1", "BOOL", 8), None), 0);
+    // A class of local labels.
+    assert_eq!(table(label("Start", "BOOL", 1), None), 1);
+    let of = |of| Label {
+        of,
+        ..label("Start", "Axis", 8)
+    };
+    assert_eq!(table(of("Axis"), None), 0);
+    assert_eq!(table(of("Axes"), None), 1);
+    let at = |device, address| Label {
+        device,
+        address,
+        ..plain
+    };
+    assert_eq!(table(at("M100", "%MX0.100"), None), 0);
+    assert_eq!(table(at("X010", "%IX8"), None), 0);
+    assert_eq!(table(at("TC4", "%MX5.4"), None), 0);
+    assert_eq!(table(at("M101", "%MX0.100"), None), 1);
+    assert_eq!(table(at("M1\u{AC}0", "%MX0.100"), None), 1);
 }
 
 /// Names that Windows keeps for its devices are not names of files.

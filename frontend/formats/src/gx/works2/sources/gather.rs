@@ -118,7 +118,7 @@ impl Gathering<'_> {
     }
 
     fn globals(&mut self, part: &Part) {
-        let table = part.after_head(label::labels);
+        let table = part.after_head(label::globals);
         let name = part.stem().to_owned();
         let what = || format!("the global labels `{name}`");
         let labels = self.rows(table, &part.bytes, what);
@@ -169,7 +169,7 @@ impl Gathering<'_> {
         let Some(head) = head else {
             return self.unread(what(), &table.bytes, fields.at());
         };
-        let labels = label::labels(&mut fields);
+        let labels = label::locals(&mut fields);
         pou.labels = self.rows(labels, &table.bytes, what);
         pou.kind = head.kind;
         pou.return_type = head.return_type;

@@ -115,8 +115,8 @@ fn part<'b>(fields: &mut Fields<'b>) -> Option<Fields<'b>> {
 
 fn network(fields: &mut Fields) -> Option<Network> {
     let mut network = Network {
-        label: fields.text()?,
-        title: fields.text()?,
+        label: fields.whole_text()?,
+        title: fields.whole_text()?,
         ..Network::default()
     };
     // Height.
@@ -145,7 +145,7 @@ fn node(fields: &mut Fields) -> Option<Node> {
         0x11 => NodeKind::Rising,
         other => NodeKind::Other(other),
     };
-    let (symbol, block) = (fields.text()?, fields.text()?);
+    let (symbol, block) = (fields.whole_text()?, fields.whole_text()?);
     let (left, top) = (i64::from(fields.u32()?), i64::from(fields.u32()?));
     // Right and bottom.
     fields.take(8)?;

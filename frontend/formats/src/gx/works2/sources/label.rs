@@ -94,24 +94,31 @@ impl Class {
     }
 }
 
-/// The rows of a label table, which begins with their number.
-pub(super) fn labels(fields: &mut Fields) -> Table<Label> {
-    Table::read(fields, label)
+/// The rows of a table of global labels, which begins with their number.
+pub(super) fn globals(fields: &mut Fields) -> Table<Label> {
+    let row = |fields: &mut Fields| label(fields, &[Class::Global, Class::GlobalConstant]);
+    Table::read(fields, row)
 }
 
-fn label(fields: &mut Fields) -> Option<Label> {
-    let (name, data_type) = (fields.text()?, fields.text()?);
-    let class = Class::of(fields.u32()?)?;
+/// The rows of the labels of a POU, which begin with their number.
+pub(super) fn locals(fields: &mut Fields) -> Table<Label> {
+    use Class::{Constant, InOut, Input, Output, Var};
+    let row = |fields: &mut Fields| label(fields, &[Var, Constant, Input, Output, InOut]);
+    Table::read(fields, row)
+}
+
+fn label(fields: &mut Fields, classes: &[Class]) -> Option<Label> {
+    let (name, data_type) = (name(fields)?, fields.whole_text()?);
+    let is_class = |code: &u32| Class::of(*code).is_some_and(|class| classes.contains(&class));
+    let class = Class::of(fields.checked(Fields::u32, is_class)?)?;
     let place = place(fields)?;
     let members = members(fields)?;
-    let initial = fields.text()?;
-    fields.text()?;
+    let initial = fields.whole_text()?;
+    fields.whole_text()?;
     // Number of the row.
     fields.u32()?;
-    let comment = fields.text()?;
-    let is_array = fields.u32()? == 1;
-    // Code of the type, which its text names.
-    fields.u32()?;
+    let comment = fields.whole_text()?;
+    let (is_array, type_name) = end_of_row(fields, &data_type)?;
     Some(Label {
         name,
         data_type,
@@ -122,15 +129,81 @@ fn label(fields: &mut Fields) -> Option<Label> {
         initial,
         comment,
         is_array,
-        type_name: fields.text()?,
+        type_name,
     })
 }
 
+/// A name of a label or member.
+pub(super) fn name(fields: &mut Fields) -> Option<String> {
+    let is_name = |name: &String| -> bool {
+        !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_')
+    };
+    fields.checked(Fields::whole_text, is_name)
+}
+
+/// The end of a row of labels or members: whether its type is an array, and the name of the structure or block that is
+/// its type, or that of its elements. Both, and a code between them, must fit the type's text.
+pub(super) fn end_of_row(fields: &mut Fields, data_type: &str) -> Option<(bool, String)> {
+    const ELEMENTARY: [&str; 8] = [
+        "BOOL", "INT", "DINT", "WORD", "DWORD", "REAL", "TIME", "STRING",
+    ];
+    let element = data_type
+        .strip_prefix("ARRAY")
+        .map(|rest| rest.rsplit_once(" OF ").map_or("", |(_, of)| of.trim()));
+    let is_array = element.is_some();
+    fields.checked(Fields::u32, |&flag| flag == u32::from(is_array))?;
+    let element = element.unwrap_or(data_type);
+    // The length of a string follows its type.
+    let word = element
+        .split(['(', '['])
+        .next()
+        .unwrap_or_default()
+        .trim_end();
+    let of = ELEMENTARY
+        .iter()
+        .position(|known| known.eq_ignore_ascii_case(word));
+    fields.checked(Fields::u32, |&code| match of {
+        Some(at) => code as usize == at + 1,
+        None => !(1..=ELEMENTARY.len()).contains(&(code as usize)),
+    })?;
+    let is_type = |name: &String| match of {
+        Some(_) => name.is_empty(),
+        None => name.is_empty() || name == element,
+    };
+    let type_name = fields.checked(Fields::whole_text, is_type)?;
+    Some((is_array, type_name))
+}
+
 fn place(fields: &mut Fields) -> Option<Place> {
-    Some(Place {
-        device: fields.text()?,
-        address: fields.text()?,
-    })
+    let read = |fields: &mut Fields| {
+        Some(Place {
+            device: fields.whole_text()?,
+            address: fields.whole_text()?,
+        })
+    };
+    fields.checked(read, Place::is_sound)
+}
+
+impl Place {
+    /// Returns true unless device and address have different numbers. A device may be part of another, or of digits;
+    /// then only its characters are looked at.
+    fn is_sound(&self) -> bool {
+        let is_letter = |c: char| c.is_ascii_alphanumeric() || ".@[]\\".contains(c);
+        if !self.device.chars().all(is_letter) {
+            return false;
+        }
+        let digits = self
+            .device
+            .trim_start_matches(|c: char| c.is_ascii_uppercase());
+        let class = &self.device[..self.device.len() - digits.len()];
+        let radix = if matches!(class, "X" | "Y") { 8 } else { 10 };
+        let stated = self.address.rsplit(|c: char| !c.is_ascii_digit()).next();
+        let stated = stated.and_then(|digits| digits.parse::<u32>().ok());
+        match (u32::from_str_radix(digits, radix), stated) {
+            (Ok(number), Some(stated)) => number == stated,
+            _ => self.address.is_empty() || self.address.starts_with('%'),
+        }
+    }
 }
 
 /// The devices of members. Their form comes first: none, those of a structure, those of an array of structures.

@@ -96,11 +96,11 @@ pub(super) struct Head {
 impl Head {
     pub(super) fn read(fields: &mut Fields) -> Option<Self> {
         // Name of the POU.
-        fields.text()?;
-        let kind = fields.u8()?;
+        fields.whole_text()?;
+        let kind = fields.checked(Fields::u8, |kind| [0, 2, 3].contains(kind))?;
         fields.take(3)?;
         let flags = fields.u32()?;
-        fields.text()?;
+        fields.whole_text()?;
         Some(Head {
             kind: match kind {
                 0 => PouKind::Program,
@@ -111,7 +111,7 @@ impl Head {
                 3 => PouKind::Function,
                 _ => return None,
             },
-            return_type: fields.text()?,
+            return_type: fields.whole_text()?,
         })
     }
 }

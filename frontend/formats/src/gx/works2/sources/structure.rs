@@ -1,6 +1,6 @@
 //! Structures: `*.str`, in a library `*.lns`.
 
-use super::Table;
+use super::{Table, label};
 use crate::gx::fields::Fields;
 
 /// A structure: a data type of named members.
@@ -48,14 +48,12 @@ pub(super) fn members(fields: &mut Fields) -> Table<Member> {
 }
 
 fn member(fields: &mut Fields) -> Option<Member> {
-    let (name, data_type) = (fields.text()?, fields.text()?);
-    let initial = fields.text()?;
-    fields.text()?;
+    let (name, data_type) = (label::name(fields)?, fields.whole_text()?);
+    let initial = fields.whole_text()?;
+    fields.whole_text()?;
     let number = fields.u32()?;
-    let comment = fields.text()?;
-    let is_array = fields.u32()? == 1;
-    // Code of the type, which its text names.
-    fields.u32()?;
+    let comment = fields.whole_text()?;
+    let (is_array, type_name) = label::end_of_row(fields, &data_type)?;
     Some(Member {
         name,
         data_type,
@@ -63,6 +61,6 @@ fn member(fields: &mut Fields) -> Option<Member> {
         number,
         comment,
         is_array,
-        type_name: fields.text()?,
+        type_name,
     })
 }
