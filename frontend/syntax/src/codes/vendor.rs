@@ -39,7 +39,7 @@ super::codes! {
 
     DAMAGED_PART = "W0525" "damaged-part" Warning None,
     "a part of the project other than its program is damaged",
-    "Device comments, parameters or tasks cannot be read past some point. Everything before it is used; the program itself is not affected.",
+    "Device comments, parameters, tasks, labels or structures cannot be read past some point. Everything before it is used; the program itself is not affected.",
     wrong: "",
     right: "";
 

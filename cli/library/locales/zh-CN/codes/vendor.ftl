@@ -29,9 +29,9 @@ W0524 = 机型不允许此 PLC 参数
     .text = 工程的参数设置了此机型不支持的内容。消息说明改用什么。
 
 # a part of the project other than its program is damaged
-# Device comments, parameters or tasks cannot be read past some point. Everything before it is used; the program itself is not affected.
+# Device comments, parameters, tasks, labels or structures cannot be read past some point. Everything before it is used; the program itself is not affected.
 W0525 = 工程中程序以外的部分损坏
-    .text = 软元件注释、参数或任务从某处起无法读取。在此之前的内容全部使用；程序本身不受影响。
+    .text = 软元件注释、参数、任务、标签或结构体从某处起无法读取。在此之前的内容全部使用；程序本身不受影响。
 
 # a variable that is to keep its value has a device that is not latched
 # The project declares the variable as RETAIN, but its device loses its value when the power fails: latched devices are those of the model and of `[latched]` in rungc.toml. Name a latched device in `[plcopen.names]`, list latched ones in `[plcopen] free`, or add the device to `[latched]`.
