@@ -359,13 +359,13 @@ fn octal(class: DeviceClass, span: Span, text: &str) -> Diagnostic {
             format!("`{text}` is not an octal number: {prefix} devices have no digits 8 and 9"),
         )
         .label("8 and 9 are not octal digits");
-    match digits.parse::<u32>() {
-        Ok(n) => error.help(format!(
-            "{prefix} counts in octal, so {prefix}007 is followed by {prefix}010; decimal {n} is `{}`",
-            class.number(n)
-        )),
-        Err(_) => error,
-    }
+    // No model has a terminal beyond 377.
+    let decimal = digits.parse().ok().filter(|&n: &u32| n <= 0o377);
+    let decimal = decimal.map(|n| format!("; decimal {n} is `{}`", class.number(n)));
+    error.help(format!(
+        "{prefix} counts in octal, so {prefix}007 is followed by {prefix}010{}",
+        decimal.unwrap_or_default()
+    ))
 }
 
 /// Says what an unreadable operand lacks, as precisely as its text allows.

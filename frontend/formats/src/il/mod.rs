@@ -4,9 +4,9 @@
 //! a line each operand is: one mistake never hides the next. Full-width text is read as half-width; places always refer
 //! to the original.
 //!
-//! An instruction of which one operand cannot be read stays, with that operand marked as unreadable; an operand whose
-//! number is merely impossible (`X008`) gets a stand-in. So the instructions around it are judged by what the author
-//! meant.
+//! An instruction of which one operand cannot be read stays, with that operand marked as unreadable; where it is clear
+//! which device it was meant to name (`X008`), it names that one. So the instructions around it are judged by what the
+//! author meant.
 //!
 //! Comment lines above an instruction become its statement, a comment beside it its note. Lines that begin with `;!`
 //! state properties of the program: `;! cpu = FX3U/FX3UC`, `;! title = Press`, `;! X000 = start button`.
@@ -24,7 +24,7 @@ use crate::text::{Lines, clean};
 use fault::{Faults, Wanted};
 use fold::Folded;
 use rungc_syntax::{
-    Device, Diagnostics, Instr, Operands, Program, Remarks, Source, SourceKind, Span,
+    Device, Diagnostics, Instr, Operands, Program, Remarks, Source, SourceKind, Span, codes,
 };
 use smol_str::{SmolStr, ToSmolStr};
 use windows::Windows;
@@ -62,6 +62,7 @@ pub fn read_text(name: &str, text: &str) -> Read {
         }
     }
     reader.end_windows(&windows, text.len() as u32);
+    reader.one_line(&source);
     reader.program.closing = reader.statement.take();
     reader.program.source = source;
     reader.program.kind = SourceKind::Il;
@@ -90,6 +91,33 @@ impl Reader {
         folded.fold_line(line, &mut self.faults);
         self.folded_line(line, &folded, start);
         self.folded = folded;
+    }
+
+    /// Reports a program that is one line, its instructions separated by what starts a comment.
+    fn one_line(&mut self, source: &Source) {
+        let mut lines = source.lines().filter(|(_, line)| !line.trim().is_empty());
+        let (Some((start, line)), None) = (lines.next(), lines.next()) else {
+            return;
+        };
+        let [instr] = &self.program.instrs[..] else {
+            return;
+        };
+        let end = (instr.span.end - start) as usize;
+        let rest = line.get(end..).unwrap_or_default().trim();
+        let parts = rest.split([';', '/']).map(str::trim);
+        let mut parts = parts.filter(|part| !part.is_empty()).peekable();
+        let is_instr = |part: &str| part.split_whitespace().next().is_some_and(is_basic);
+        if rest.starts_with([';', '/']) && parts.peek().is_some() && parts.all(is_instr) {
+            let from = instr.span.end + (line[end..].len() - line[end..].trim_start().len()) as u32;
+            let to = from + rest.len() as u32;
+            self.diagnostics.push(
+                codes::ONE_PER_LINE
+                    .at(Span::new(from, to), "the rest of the program is a comment")
+                    .label("`;` and `//` start a comment")
+                    .help("write each instruction on its own line"),
+            );
+            self.program.unread.push(1);
+        }
     }
 
     /// Reads a line in another form, which begins at `start`.
