@@ -638,6 +638,12 @@ impl Inst {
         stated.unwrap_or(self.params)
     }
 
+    /// Returns true if its operands depend on what the first one is: `OUT T0 K30`, `OUT Y0`.
+    pub fn depends_on_first(&self) -> bool {
+        let mut variants = self.variants.iter();
+        variants.any(|variant| matches!(variant.when, When::First(..)) && variant.params.is_some())
+    }
+
     /// Number of steps in the program memory.
     pub fn steps_of(&self, form: Form, operands: &[Operand], model: &Model) -> u32 {
         self.params_and_steps(form, operands, model).1

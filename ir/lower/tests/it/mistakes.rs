@@ -99,6 +99,47 @@ fn a_broken_operand_is_one_error() {
     insta::assert_snapshot!(pages(ModelId::Fx3u, OPERANDS));
 }
 
+/// Operands that one check finds wrong and another could find wrong once more.
+#[test]
+fn an_error_in_an_operand_is_reported_once() {
+    let rungs = [
+        "OUT Y9999",
+        "OUT X9",
+        "OUT K5Y9",
+        "OUT Y888Z0",
+        "OUT Y 9999",
+        "MOV K1 D99999999999",
+        "ZRST Y9 Y17",
+        "ZRST D0 Q5",
+        "ZRST D0 M99999",
+        "MOV P9999 D0",
+        "MOV I9999 D0",
+        "CALL P9999",
+        "CJ P9999",
+        "OUT D99999 K5",
+        "OUT P5 K5",
+        "BMOV D0 D10 K99999",
+        "MC C300 M0\nLD X1\nOUT Y1\nMCR N0",
+    ];
+    let programs = rungs.map(|rung| format!("LD X0\n{rung}\nEND\n"));
+    one_error_each(ModelId::Fx3u, &programs.each_ref().map(String::as_str));
+    // A program in one line.
+    let lines = [
+        "LD X0 OUT Y0 END",
+        "0 LD X0 1 AND X1 2 OUT Y0 3 END",
+        "LD X0, OUT Y0, END\n",
+        "LD X0; OUT Y0; END",
+        "LD X0 // OUT Y0 // END\n",
+    ];
+    one_error_each(ModelId::Fx3u, &lines);
+    for line in lines {
+        assert!(
+            pages(ModelId::Fx3u, &[line]).contains("each instruction on its own line"),
+            "{line}"
+        );
+    }
+}
+
 /// Names of instructions that do not exist.
 const NAMES: &[&str] = &[
     "LD X0\nMPS\nAND X1\nOUT Y0\nMP\nOUT Y1\nEND\n",

@@ -8,7 +8,9 @@ use rustc_hash::FxHashMap;
 
 /// Checks all pointers of a program.
 pub(super) fn check(code: &Code, pointers: &Pointers, nesting: &Nesting, out: &mut Diagnostics) {
-    for (device, pointer) in pointers.iter() {
+    // That the model does not have a pointer is reported where it is named.
+    let has = |device: &Device| code.model().has(device.class, device.number);
+    for (device, pointer) in pointers.iter().filter(|(device, _)| has(device)) {
         defined_once(code, device, pointer, out);
         if device.class != DeviceClass::P {
             if pointer.labels.is_empty() {

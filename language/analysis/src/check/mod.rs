@@ -353,6 +353,15 @@ impl<'a> Code<'a> {
         }
     }
 
+    /// Returns true if the last operand of an instruction is END, on the same line.
+    fn names_end(&self, i: usize) -> bool {
+        let last = self.instr(i).operands.last();
+        last.is_some_and(|operand| {
+            let text = self.resolved.program.source.slice(operand.span);
+            matches!(operand.kind, OperandKind::Unreadable(_)) && text.eq_ignore_ascii_case("END")
+        })
+    }
+
     /// Checks that there is an END, and nothing after it.
     fn end(&self, out: &mut Diagnostics) {
         let instrs = &self.resolved.program.instrs;
@@ -366,6 +375,10 @@ impl<'a> Code<'a> {
             out.push(empty.help("a program contains at least END"));
             return;
         };
+        if self.names_end(last) {
+            // It follows another instruction on its line, which is reported.
+            return;
+        }
         if self.basic(last) != Some(Basic::End) {
             let diagnostic = codes::NO_END.at(self.span(last), "the program does not end with END");
             out.push(

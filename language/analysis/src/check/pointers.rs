@@ -2,7 +2,7 @@
 
 use super::Code;
 use rungc_catalogue::Basic;
-use rungc_syntax::{Device, DeviceClass, OperandKind};
+use rungc_syntax::{Classes, Device, DeviceClass, OperandKind};
 use rustc_hash::FxHashMap;
 
 /// Uses of one pointer.
@@ -71,9 +71,14 @@ impl Pointers {
                     _ => continue,
                 };
                 let pointer = matches!(device.class, DeviceClass::P | DeviceClass::I);
-                // An operand too many is wrong in itself.
+                // An operand that does not belong there is wrong in itself.
                 let known = code.inst(i).is_some() && !code.is_meant(i);
-                if !pointer || known && at >= code.params(i).len() {
+                let class = Classes::of_device(device.class);
+                let fits = code
+                    .params(i)
+                    .get(at)
+                    .is_some_and(|p| p.classes.meets(class));
+                if !pointer || known && !fits {
                     continue;
                 }
                 if index.is_some() {

@@ -241,7 +241,9 @@ impl Walk<'_, '_> {
     }
 
     fn level(&self, i: usize) -> Option<u32> {
-        self.code.device(i, 0).map(|device| device.number)
+        let level = self.code.device(i, 0);
+        let level = level.filter(|device| device.class == DeviceClass::N)?;
+        Some(level.number)
     }
 
     fn begin_mc(&mut self, i: usize) {

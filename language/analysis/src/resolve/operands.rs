@@ -62,14 +62,33 @@ impl Checker {
         out: &mut Diagnostics,
     ) {
         let matched = Matched { instr, found };
-        self.count(instr, params, out);
-        for (at, param) in params.iter().enumerate().take(instr.operands.len()) {
-            let wide = found.form.wide;
-            let wrong = self
-                .operand(&matched, at, param)
-                .map(|diagnostic| self.compatible_boards(diagnostic, &matched, at));
-            out.extend(wrong.or_else(|| rules::broken(&instr.operands, at, param, wide)));
+        let given = || params.iter().enumerate().take(instr.operands.len());
+        let wrong = given().map(|(at, param)| {
+            let wrong = self.operand(&matched, at, param);
+            wrong.map(|diagnostic| self.compatible_boards(diagnostic, &matched, at))
+        });
+        let mut wrong: Vec<Option<Diagnostic>> = wrong.collect();
+        // What an instruction takes may depend on the class of its first operand.
+        let first = wrong.first().and_then(Option::as_ref);
+        let is_lost = first.is_some_and(|wrong| wrong.code == codes::OPERAND_CLASS.id);
+        if !(is_lost && found.inst.depends_on_first()) {
+            self.count(instr, params, out);
         }
+        // A wrong number of devices leads anywhere.
+        let is_reach = |wrong: &Diagnostic| wrong.code == codes::PAST_THE_END.id;
+        if !wrong.iter().flatten().all(is_reach) {
+            for wrong in &mut wrong {
+                wrong.take_if(|wrong| is_reach(wrong));
+            }
+        }
+        // Operands are compared with those that are right by themselves.
+        let mut right = instr.operands.clone();
+        for (operand, _) in right.iter_mut().zip(&wrong).filter(|(_, w)| w.is_some()) {
+            operand.kind = OperandKind::Unreadable(None);
+        }
+        let wide = found.form.wide;
+        let broken = given().map(|(at, param)| rules::broken(&right, at, param, wide));
+        out.extend(wrong.into_iter().chain(broken).flatten());
     }
 
     /// Says that boards which take programs for the model take operand `at`, if only its value is what the model does

@@ -1,5 +1,6 @@
 //! Conditions on an operand in addition to its class and limits: the [`Rule`]s of the catalogue.
 
+use super::operands::is_unreadable;
 use rungc_catalogue::{Limits, Param, Rule};
 use rungc_models::runs::{FIRST_COUNTER32, is_special};
 use rungc_syntax::{Classes, Device, DeviceClass, Diagnostic, Operand, OperandKind, codes};
@@ -11,7 +12,7 @@ pub(super) fn broken(
     param: &Param,
     wide: bool,
 ) -> Option<Diagnostic> {
-    let operand = operands.get(at)?;
+    let operand = operands.get(at).filter(|operand| !is_unreadable(operand))?;
     let against = |other: usize, wrong: fn(i64, i64) -> bool, demand| {
         compare(operand, operands.get(other)?, wrong, demand)
     };
@@ -131,7 +132,7 @@ fn before(operand: &Operand, other: &Operand) -> Option<Diagnostic> {
 /// Two operands are of different classes.
 fn unlike_class(operand: &Operand, other: &Operand) -> Option<Diagnostic> {
     let differ = Classes::of(&operand.kind) != Classes::of(&other.kind);
-    differ.then(|| {
+    (differ && !is_unreadable(other)).then(|| {
         disagree(operand, other, "must be of the same class as")
             .help("name the first and the last device of one class")
     })

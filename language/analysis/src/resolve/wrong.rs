@@ -27,27 +27,42 @@ pub(super) fn second_instruction(
             && !label
             && rungc_catalogue::find(&text(operand)).is_some()
     };
-    let at = instr.operands.iter().enumerate().position(names)?;
-    // The second instruction may have a step number in front.
-    let number = |operand: &&Operand| text(operand).bytes().all(|b| b.is_ascii_digit());
-    let before = at
-        .checked_sub(1)
-        .and_then(|before| instr.operands.get(before));
-    let step = before
-        .filter(|operand| is_unreadable(operand))
-        .filter(number);
-    let second = &instr.operands[at];
-    let begin = step.map_or(second.span, |step| step.span);
+    let further = instr.operands.iter().enumerate();
+    let further: Vec<_> = further.filter(|operand| names(*operand)).collect();
+    let (&(_, second), others) = further.split_first()?;
+    // An instruction may have a step number in front.
+    let is_number = |operand: &&Operand| text(operand).bytes().all(|b| b.is_ascii_digit());
+    let begins = |at: usize| {
+        let before = at.checked_sub(1).and_then(|at| instr.operands.get(at));
+        let step = before.filter(|operand| is_unreadable(operand));
+        at - usize::from(step.filter(is_number).is_some())
+    };
+    // The blanks before an instruction, which a line end replaces.
+    let gap = |at: usize| {
+        let first = begins(at);
+        let before = first.checked_sub(1).and_then(|n| instr.operands.get(n));
+        let end = before.map_or(instr.mnemonic_span, |before| before.span).end;
+        Span::new(end, instr.operands[first].span.start)
+    };
     let message = format!("a second instruction, `{}`, on one line", text(second));
     let end = Span::new(instr.span.end, instr.span.end);
+    let begin = instr.operands[begins(further[0].0)].span;
     let diagnostic = codes::ONE_PER_LINE
         .at(begin.to(end), message)
         .label("starts here");
-    let first = at - usize::from(step.is_some());
-    let before = first.checked_sub(1).and_then(|n| instr.operands.get(n));
-    let gap = before.map_or(instr.mnemonic_span, |before| before.span).end;
-    let fix = Fix::certain("put it on its own line").replace(Span::new(gap, begin.start), "\n");
-    let help = format!("write `{}` on its own line", text(second));
+    let (title, help) = match others {
+        [] => (
+            "put it on its own line",
+            format!("write `{}` on its own line", text(second)),
+        ),
+        _ => (
+            "put each on its own line",
+            "write each instruction on its own line".to_owned(),
+        ),
+    };
+    let fix = further.iter().fold(Fix::certain(title), |fix, (at, _)| {
+        fix.replace(gap(*at), "\n")
+    });
     Some(diagnostic.help(help).fix(fix))
 }
 
