@@ -14,6 +14,7 @@ use crate::Form;
 use crate::row::{SOURCE_BITS, WORDS};
 use rungc_models::{Model, ModelId};
 use special::{special_of, special_page};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// The page of an instruction, in Markdown: operands, forms, steps, flags, errors, models, an example; or of a special
@@ -207,14 +208,32 @@ fn devices(inst: &Inst, model: ModelId) -> String {
             let _ = writeln!(text, "- {flag}{}: {meaning}", without(inst, flag));
         }
     }
-    let errors = errors(inst, Model::get(model));
+    let errors = errors_by_model(inst);
     if !errors.is_empty() {
         text.push_str("\n## Errors\n\n");
-        for code in errors {
-            let _ = writeln!(text, "- {code}: {}", error_title(code));
+        let having = ModelId::ALL.iter().filter(|&&id| inst.models.has(id));
+        let all = having.count();
+        for (code, models) in errors {
+            let _ = write!(text, "- {code}: {}", error_title(code));
+            if models.len() < all {
+                let _ = write!(text, " (only on {})", models.join(", "));
+            }
+            text.push('\n');
         }
     }
     text
+}
+
+/// Errors that an instruction can cause, by the codes of H1U and H2U, and the models on which it does.
+fn errors_by_model(inst: &Inst) -> BTreeMap<u16, Vec<&'static str>> {
+    let mut found: BTreeMap<u16, Vec<&str>> = BTreeMap::new();
+    for id in ModelId::ALL.into_iter().filter(|&id| inst.models.has(id)) {
+        let model = Model::get(id);
+        for code in errors(inst, model) {
+            found.entry(code).or_default().push(model.name);
+        }
+    }
+    found
 }
 
 /// Errors that an instruction can cause on a model, by the codes of H1U and H2U: those of its row, and those of
