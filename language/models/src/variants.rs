@@ -82,7 +82,16 @@ impl Plc {
     /// # Errors
     /// What is wrong with the name, and what to do.
     pub fn named(name: &str) -> Result<Plc, UnknownPlc> {
-        Plc::find(name).ok_or_else(|| UnknownPlc::of(name))
+        Plc::find(name)
+            .or_else(|| Plc::of_each(name))
+            .ok_or_else(|| UnknownPlc::of(name))
+    }
+
+    /// The model that each name of a text stands for, as editors write CPU types: `FX3U/FX3UC`.
+    fn of_each(names: &str) -> Option<Plc> {
+        let mut all = parts(names).map(Plc::find);
+        let first = all.next()??;
+        all.all(|other| other == Some(first)).then_some(first)
     }
 
     /// Any PLC of a model.
@@ -92,6 +101,12 @@ impl Plc {
             variant: None,
         }
     }
+}
+
+/// The names in a text that may hold several.
+fn parts(names: &str) -> impl Iterator<Item = &str> + Clone {
+    let is_separator = |c: char| c == '/' || c == ',' || c.is_whitespace();
+    names.split(is_separator).filter(|name| !name.is_empty())
 }
 
 /// A name that no PLC has.
@@ -109,6 +124,13 @@ impl UnknownPlc {
             return UnknownPlc {
                 message: format!("`{name}` is a CPU of {family}, which is not supported"),
                 help: "rungc compiles programs of the FX family, up to FX3".to_string(),
+            };
+        }
+        let known: Vec<_> = parts(name).filter_map(Plc::find).map(Plc::name).collect();
+        if known.len() > 1 && known.len() == parts(name).count() {
+            return UnknownPlc {
+                message: format!("`{name}` names {} models", known.len()),
+                help: format!("name one: `{}`", known.join("` or `")),
             };
         }
         let names = ModelId::ALL.map(|id| Model::get(id).name).into_iter();
@@ -356,6 +378,25 @@ mod tests {
             let found = Plc::for_cpu(cpu).and_then(|(plc, _)| plc.variant);
             assert_eq!(found.map(|variant| variant.name), Some(name), "{cpu}");
         }
+    }
+
+    #[test]
+    fn several_names_are_one_model_or_none() {
+        for (names, model) in [
+            ("FX3U/FX3UC", "fx3u"),
+            ("fx2n, FX2NC", "fx2n"),
+            ("FX3U FX3UC", "fx3u"),
+        ] {
+            assert_eq!(Plc::named(names).unwrap().name(), model);
+        }
+        let wrong = Plc::named("FX3U/FX2N").unwrap_err();
+        let said = format!("{}; {}", wrong.message, wrong.help);
+        assert_eq!(
+            said,
+            "`FX3U/FX2N` names 2 models; name one: `fx3u` or `fx2n`"
+        );
+        let wrong = Plc::named("FX3U/FX9").unwrap_err();
+        assert_eq!(wrong.help, "the nearest model is `fx3u`");
     }
 
     #[test]
