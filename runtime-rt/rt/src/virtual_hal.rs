@@ -49,6 +49,7 @@ pub struct VirtualHal {
     watch: Milliseconds,
     lines: [VirtualLine; LINES],
     power_fails: bool,
+    battery: Option<u16>,
 }
 
 impl Default for VirtualHal {
@@ -83,12 +84,18 @@ impl VirtualHal {
             watch: Milliseconds::at(0),
             lines: [const { VirtualLine::new() }; LINES],
             power_fails: false,
+            battery: None,
         }
     }
 
     /// The power supply fails from now on, or is back.
     pub fn set_power_fails(&mut self, fails: bool) {
         self.power_fails = fails;
+    }
+
+    /// Sets the voltage of the battery in tenths of a volt; `None`, as at first: nothing measures it.
+    pub fn set_battery(&mut self, tenths: Option<u16>) {
+        self.battery = tenths;
     }
 
     /// The other end of a serial port; `None` if the number is above 4.
@@ -265,6 +272,10 @@ impl Hal for VirtualHal {
 
     fn power_fails(&mut self) -> Option<bool> {
         Some(self.power_fails)
+    }
+
+    fn battery(&mut self) -> Option<u16> {
+        self.battery
     }
 
     fn analog(&mut self, channel: u8) -> Option<i16> {

@@ -8,16 +8,18 @@ use crate::special::{
 };
 
 /// Words of the memory: whether the supply fails, and since when, in milliseconds; whether M8007 has come on; whether
-/// the PLC was stopped.
+/// the PLC was stopped; whether the battery has been low.
 const FAILS: usize = 0;
 const SINCE: usize = 1;
 const SHOWN: usize = 2;
 const STOPPED: usize = 3;
+const HAS_BEEN_LOW: usize = 4;
 
 /// After how many milliseconds of failing power M8007 and M8008 come on.
 const SHOWN_AFTER_MS: i32 = 5;
 
-/// Shows the power supply and the battery, once a scan before the program. When the supply has failed for 5 ms, M8007
+/// Shows the power supply and the battery, once a scan before the program. Once the battery was low, M8006 is on up to
+/// power-off: a program cannot reset it (h1u-h2u-programming §8.9). When the supply has failed for 5 ms, M8007
 /// and M8008 come on, and D8007 counts that. Once it has failed for longer than D8008 says, M8008 goes off, and the PLC
 /// goes to STOP at the end of the scan. Where the supply comes back before the PLC has lost its memory, its host starts
 /// it again.
@@ -26,7 +28,8 @@ pub fn power_supply(cx: &mut Cx) -> Done {
         let low = tenths < cx.special_word(D_BATTERY_LOW) as u16;
         cx.set_special_word(D_BATTERY, tenths as i16);
         cx.set_special(M_BATTERY_LOW, low);
-        if low {
+        cx.state().0[HAS_BEEN_LOW] |= i32::from(low);
+        if cx.state().0[HAS_BEEN_LOW] != 0 {
             cx.set_special(M_BATTERY_HAS_BEEN_LOW, true);
         }
     }
@@ -84,5 +87,24 @@ mod tests {
             scan(true);
         }
         assert_eq!(scan(true), ([true, false, true], 2));
+    }
+
+    #[test]
+    fn a_program_cannot_reset_m8006() {
+        let mut plc = Double::new();
+        plc.set_d(8006, &[26]);
+        let mut scan = |tenths: u16, reset: bool| {
+            plc.hal.set_battery(Some(tenths));
+            plc.scan(5, true, RtFn::PowerSupply, &[]).unwrap();
+            let relays = [8005, 8006].map(|n| plc.bit(Class::M, n).unwrap());
+            if reset {
+                plc.set_bit(Class::M, 8006, false).unwrap();
+            }
+            relays
+        };
+        assert_eq!(scan(30, false), [false, false]);
+        assert_eq!(scan(25, true), [true, true]);
+        assert_eq!(scan(30, true), [false, true]);
+        assert_eq!(scan(30, false), [false, true]);
     }
 }
