@@ -126,13 +126,22 @@ impl Tools {
         let probe = folder.path().join("probe.c");
         fs::write(&probe, "#include <string.h>\n").map_err(io(&probe))?;
         let read = Command::new(&self.cc).arg("-E").arg(&probe).output();
-        if !read.is_ok_and(|output| output.status.success()) {
-            return Err(BuildError::Missing(format!(
-                "{} has no C library for {triple} (string.h): on Debian and Ubuntu, `apt install {packages}`",
-                self.cc.display()
-            )));
-        }
-        Ok(())
+        let said = match read {
+            Ok(output) if output.status.success() => return Ok(()),
+            Ok(output) => String::from_utf8_lossy(&output.stderr).into_owned(),
+            Err(error) => error.to_string(),
+        };
+        let cc = self.cc.display();
+        Err(BuildError::Missing(match said.contains("string.h") {
+            true => format!(
+                "{cc} has no C library for {triple} (string.h): on Debian and Ubuntu, `apt install {packages}`"
+            ),
+            // It lacks its other parts, which it finds by the search path.
+            false => format!(
+                "{cc} does not work for {triple}: {}",
+                said.lines().next().unwrap_or("it fails without a message")
+            ),
+        }))
     }
 
     /// Checks that Rust can be built. A cargo that builds the standard library itself needs no library for the target.

@@ -124,19 +124,38 @@ fn report(verbose: bool) -> Report {
         tools: tools.collect(),
         targets: targets.collect(),
         serial_ports: ports.collect(),
-        settings: vec![
-            Setting {
-                name: "cache folder",
-                needed_for: "compiling the runtime library once, instead of for each executable",
-                state: cache(),
-            },
-            Setting {
-                name: "characters",
-                needed_for: "ladders and timing diagrams in the terminal, which are drawn in UTF-8",
-                state: characters(),
-            },
-        ],
+        settings: settings(),
         verbose,
+    }
+}
+
+fn settings() -> Vec<Setting> {
+    let usual = [
+        Setting {
+            name: "cache folder",
+            needed_for: "compiling the runtime library once, instead of for each executable",
+            state: cache(),
+        },
+        Setting {
+            name: "characters",
+            needed_for: "ladders and timing diagrams in the terminal, which are drawn in UTF-8",
+            state: characters(),
+        },
+    ];
+    let search = no_search_path().map(|why| Setting {
+        name: "search path",
+        needed_for: "finding the tools above, and the parts that a C compiler consists of",
+        state: State::Failed(why.to_owned()),
+    });
+    search.into_iter().chain(usual).collect()
+}
+
+/// What is wrong with the variable PATH, if it names no folder.
+fn no_search_path() -> Option<&'static str> {
+    match std::env::var_os("PATH") {
+        None => Some("PATH is not set: the system looks for programs in its default folders alone"),
+        Some(folders) if folders.is_empty() => Some("PATH is empty: no program is found"),
+        Some(_) => None,
     }
 }
 

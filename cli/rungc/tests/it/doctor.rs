@@ -63,6 +63,38 @@ fn without_tools_each_is_missing_with_what_it_prevents_and_a_way_to_install_it()
     assert_eq!(characters["state"], "failed", "{report}");
 }
 
+/// Without PATH, systems look in default folders, where a compiler may be without its parts.
+#[test]
+fn a_search_path_that_is_not_set_is_named() {
+    let empty = folder(&[]);
+    let run = |path: Option<&str>| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_rungc"));
+        command.args(["doctor", "--verbose"]).env_clear();
+        command
+            .env("HOME", empty.path())
+            .envs(path.map(|path| ("PATH", path)));
+        let output = command.output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let unset = run(None);
+    assert!(
+        unset.contains("search path      failed   PATH is not set"),
+        "{unset}"
+    );
+    // A C library that is there is not called missing.
+    let has_library = Path::new("/usr/include/string.h").exists();
+    let named = unset
+        .lines()
+        .any(|line| line.contains("no C library for host"));
+    assert!(!(has_library && named), "{unset}");
+    assert!(
+        run(Some("")).contains("search path      failed   PATH is empty"),
+        "{unset}"
+    );
+    assert!(!run(Some("/nowhere")).contains("search path"), "{unset}");
+}
+
 #[test]
 fn tools_are_found_with_their_versions_and_broken_ones_named() {
     let tools = folder(&[]);
