@@ -48,6 +48,24 @@ checked =
        *[other] { $devices } devices
     }) in { $elapsed } ms
 
+emitted =
+    { "    " }Emitted { $path } ({ $model }, { $steps ->
+        [one] { $steps } step
+       *[other] { $steps } steps
+    })
+
+measured =
+    { "   " }Measured { $path } ({ $model }, { $steps ->
+        [one] { $steps } step
+       *[other] { $steps } steps
+    })
+
+read =
+    { "       " }Read { $title } at { $name }: { $steps ->
+        [one] { $steps } step
+       *[other] { $steps } steps
+    } in { $seconds } s
+
 closing = { $done }: { $counts }
 
 failed = { "      " }Failed { $name }: { $counts }

@@ -65,6 +65,24 @@ comma = ，
 # }) in { $elapsed } ms
 checked = { "      " }已检查 { $name }（{ $model }，{ $steps } 步，{ $devices } 个软元件），用时 { $elapsed } ms
 
+# { "    " }Emitted { $path } ({ $model }, { $steps ->
+#     [one] { $steps } step
+#    *[other] { $steps } steps
+# })
+emitted = { "      " }已生成 { $path }（{ $model }，{ $steps } 步）
+
+# { "   " }Measured { $path } ({ $model }, { $steps ->
+#     [one] { $steps } step
+#    *[other] { $steps } steps
+# })
+measured = { "      " }已测量 { $path }（{ $model }，{ $steps } 步）
+
+# { "       " }Read { $title } at { $name }: { $steps ->
+#     [one] { $steps } step
+#    *[other] { $steps } steps
+# } in { $seconds } s
+read = { "      " }已读取 { $title }（{ $name }），{ $steps } 步，用时 { $seconds } s
+
 # { $done }: { $counts }
 closing = { $done }：{ $counts }
 

@@ -8,8 +8,8 @@ use super::setting;
 use super::subject::{self, OutputPaths, Subject};
 use super::together::{Place, Together};
 use super::{
-    Context, Failure, Outcome, Result, Verbosity, conclude, counted, defaults, eprint_line,
-    file_name, findings, interruption, parent_dir, ports, print_text, read, stem,
+    Context, Failure, Outcome, Result, Verbosity, conclude, defaults, eprint_line, file_name,
+    findings, interruption, parent_dir, ports, print_text, read, stem,
 };
 use crate::args::{Backend, BuildArgs, Emit, Plan};
 use crate::output::{at, file, free, spare, write_executable, write_file, write_folder};
@@ -17,6 +17,7 @@ use crate::progress;
 use crate::report::Reporter;
 use fitting::fitting;
 use rungc::Names;
+use rungc::language::message;
 use rungc_codegen_c::lanes;
 use rungc_codegen_rust::Runtime;
 use rungc_emit::OutFile;
@@ -122,16 +123,19 @@ fn build(
     if let (Some(takes), true) = (&findings.takes, reporter.is_for_people()) {
         print_text(&takes.to_string())?;
     }
+    let language = findings.language(cx);
     conclude(&findings, reporter, cx, || {
-        let (what, path) = match &written {
-            Some(path) => ("Emitted", path.display()),
-            None => ("Measured", subject.file.display()),
+        let (id, path) = match &written {
+            Some(path) => ("emitted", path),
+            None => ("measured", &subject.file),
         };
-        format!(
-            "{what:>11} {path} ({}, {})",
-            module.model.name.to_uppercase(),
-            counted(module.steps as usize, "step")
-        )
+        let (path, model) = (path.display().to_string(), module.model.name.to_uppercase());
+        let arguments = [
+            ("path", (&path).into()),
+            ("model", (&model).into()),
+            ("steps", (module.steps as usize).into()),
+        ];
+        message(language, id, &arguments)
     })
 }
 

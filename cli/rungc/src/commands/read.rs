@@ -2,11 +2,12 @@
 
 use super::convert::written;
 use super::line::{self, Line};
-use super::{Context, Failure, Result, conclude, grouped, interruption, print_bytes, print_text};
+use super::{Context, Failure, Result, conclude, interruption, print_bytes, print_text};
 use crate::args::{ConvertTo, PlcopenBody, ReadArgs};
 use crate::output::{file, spare, write_file};
 use crate::progress;
 use crate::report::{Findings, Reporter};
+use rungc::language::message;
 use rungc::monitor::first_difference;
 use rungc_frontend::{ReadOptions, image};
 use rungc_lower::compile::CompileOptions;
@@ -66,13 +67,18 @@ pub fn run(args: &ReadArgs, cx: Context) -> Result {
         }
     }
     let steps = read.program.instrs.last().and_then(|end| end.step);
+    let language = findings.language(cx);
     let outcome = conclude(&findings, &mut reporter, cx, || {
-        let steps = grouped(steps.map_or(0, |end| end as usize + 1));
-        let seconds = begin.elapsed().as_secs_f32();
-        format!(
-            "        Read {} at {name}: {steps} steps in {seconds:.1} s",
-            plc.title()
-        )
+        let steps = steps.map_or(0, |end| end as usize + 1);
+        let title = plc.title();
+        let seconds = format!("{:.1}", begin.elapsed().as_secs_f32());
+        let arguments = [
+            ("title", (&title).into()),
+            ("name", (&name).into()),
+            ("steps", steps.into()),
+            ("seconds", (&seconds).into()),
+        ];
+        message(language, "read", &arguments)
     });
     reporter.finish()?;
     outcome

@@ -14,6 +14,16 @@ LD M9999
 MOV K1 K5
 ";
 
+/// A test file with a case.
+const CASE: &str = r#"topic = "a"
+model = "fx3u"
+program = "a.il"
+[[case]]
+name = "a"
+[[case.step]]
+scans = 1
+"#;
+
 /// Runs rungc in an environment with these variables alone of those that name a language.
 fn rungc_in(folder: &Path, variables: &[(&str, &str)], args: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_rungc"));
@@ -66,11 +76,68 @@ fn a_program_without_errors_is_reported_in_chinese() {
     let built = ["build", "a.il", "--emit", "c", "-o", "out", "--lang", "zh"];
     let report = shown(folder.path(), &built);
     assert!(report.contains("W0203"), "{report}");
+    let end = "已生成 out（FX3U，5 步）：0 个错误，1 个警告";
+    assert!(report.contains(end), "{report}");
+    let measured = ["build", "a.il", "--report", "--lang", "zh"];
+    let report = shown(folder.path(), &measured);
+    assert!(report.contains("已测量 a.il（FX3U，5 步）：0 "), "{report}");
     let report = shown(folder.path(), &["check", "c.il", "--lang", "zh"]);
     assert!(
         report.contains("rungc: 错误[E0016]：文件无法读取\n"),
         "{report}"
     );
+}
+
+/// The text of pages is English in any language of reports, and so is the language that they state.
+#[test]
+fn pages_state_the_language_of_their_text() {
+    let folder = folder(&[
+        ("a.il", b"LD X0\nOUT Y0\nEND\n"),
+        ("b.il", b"LD X1\nOUT Y0\nEND\n"),
+        ("a.plctest.toml", CASE.as_bytes()),
+    ]);
+    let commands: [&[&str]; 5] = [
+        &["view", "a.il", "-o", "page.html"],
+        &["xref", "a.il", "--to", "html", "-o", "page.html"],
+        &[
+            "diff",
+            "a.il",
+            "b.il",
+            "--format",
+            "html",
+            "-o",
+            "page.html",
+        ],
+        &[
+            "test",
+            "a.plctest.toml",
+            "--coverage",
+            "html",
+            "-o",
+            "page.html",
+        ],
+        &[
+            "verify",
+            "a.il",
+            "--never",
+            "Y0 && !X0",
+            "--report",
+            "page.html",
+        ],
+    ];
+    for args in commands {
+        let path = folder.path().join("page.html");
+        rungc_in(folder.path(), &[], &[args, &["--lang", "zh"]].concat());
+        let page =
+            std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{args:?}: {error}"));
+        let is_chinese = page.contains(|c| ('\u{4E00}'..='\u{9FFF}').contains(&c));
+        let stated = match is_chinese {
+            true => "<html lang=\"zh-CN\">",
+            false => "<html lang=\"en\">",
+        };
+        assert!(page.contains(stated), "{args:?}");
+        std::fs::remove_file(path).unwrap();
+    }
 }
 
 #[test]
