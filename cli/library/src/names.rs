@@ -118,10 +118,11 @@ impl Names {
     /// Description of the mistake.
     pub fn targets(&self, text: &str) -> Result<Vec<Target>, String> {
         match self.range(text) {
-            Ok((class, first, last)) if first < last => {
+            Ok((class, first, last)) if first < last || is_range(text) => {
                 let names = (first..=last).map(|number| class.number(number).to_string());
                 names.map(|name| self.target(&name)).collect()
             }
+            Err(wrong) if is_range(text) => Err(wrong),
             _ => self.target(text).map(|target| vec![target]),
         }
     }
@@ -196,6 +197,18 @@ impl Names {
             None => wrong.to_string(),
         }
     }
+}
+
+/// Returns true for a text with a device at either end, whether or not they can be a range: `D10..D0`.
+fn is_range(text: &str) -> bool {
+    let is_device = |end: &str| {
+        let digits = end.trim_start_matches(|c: char| c.is_ascii_alphabetic());
+        let letters = end[..end.len() - digits.len()].to_uppercase();
+        let is_number = !digits.is_empty() && digits.bytes().all(|digit| digit.is_ascii_digit());
+        is_number && DeviceClass::from_prefix(&letters).is_some()
+    };
+    let ends = text.split_once("..").or_else(|| text.split_once('-'));
+    ends.is_some_and(|(first, last)| is_device(first.trim()) && is_device(last.trim()))
 }
 
 /// Message for a text that does not name devices; `example` says how it would.
@@ -362,5 +375,16 @@ mod tests {
             let wrong = names.range(text).unwrap_err();
             assert!(wrong.contains(why), "{text}: {wrong}");
         }
+        // What is watched, too.
+        for (text, why) in [
+            ("D10..D0", "write `D0..D10`"),
+            ("x7-x0", "write `X000..X007`"),
+            ("D0-M10", "both ends are devices of one class"),
+        ] {
+            let wrong = names.targets(text).unwrap_err();
+            assert!(wrong.contains(why), "{text}: {wrong}");
+        }
+        assert_eq!(names.targets("D5..D5").unwrap().len(), 1);
+        assert_eq!(names.targets("D5-D7").unwrap().len(), 3);
     }
 }

@@ -154,8 +154,19 @@ const OTHER_WORDS: [(&str, &str); 10] = [
     ("tools environment env diagnose", "doctor"),
 ];
 
-/// An error with better advice: for an unknown command, the one that does what the word means elsewhere; for an option
-/// with a negative value, which no option takes, without that to put it after `--`.
+/// Options that limit the time of a run.
+const DURATION: &str = "duration time seconds length run-for run-time";
+
+/// Words of options of other tools, and the options that do what they mean, where a command has one of them.
+const OTHER_OPTIONS: [(&str, &[&str]); 4] = [
+    (DURATION, &["for", "timeout"]),
+    ("cpu plc type target", &["model"]),
+    ("out out-dir destination", &["output"]),
+    ("fmt out-format report-format", &["format"]),
+];
+
+/// An error with better advice: for an unknown command or option, the one that does what the word means elsewhere; for
+/// an option with a negative value, which no option takes, without that to put it after `--`.
 fn advised(mut error: clap::Error) -> clap::Error {
     if let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidSubcommand) {
         let unknown = unknown.to_ascii_lowercase();
@@ -169,6 +180,12 @@ fn advised(mut error: clap::Error) -> clap::Error {
     let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidArg) else {
         return error;
     };
+    if let Some(tip) = other_option(unknown) {
+        let tips = vec![tip.into()];
+        error.remove(ContextKind::SuggestedArg);
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
+        return error;
+    }
     let number = unknown.strip_prefix('-').unwrap_or_default();
     let arguments: Vec<_> = std::env::args_os().collect();
     let option = arguments.windows(2).find_map(|pair| {
@@ -184,6 +201,29 @@ fn advised(mut error: clap::Error) -> clap::Error {
         error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
     }
     error
+}
+
+/// Advice about an option of other tools, or of another command.
+fn other_option(unknown: &str) -> Option<String> {
+    let word = unknown.strip_prefix("--")?.to_ascii_lowercase();
+    let (words, options) = OTHER_OPTIONS
+        .iter()
+        .find(|(words, _)| words.split(' ').any(|known| known == word))?;
+    let cli = Cli::command();
+    let mut arguments = std::env::args_os().skip(1);
+    let command = arguments.find_map(|name| cli.find_subcommand(name).cloned())?;
+    let has = |option: &&&str| {
+        let mut own = command.get_arguments();
+        own.any(|argument| argument.get_long() == Some(option))
+    };
+    match options.iter().find(has) {
+        Some(option) => Some(format!("this is '--{option}' here")),
+        None if *words == DURATION && command.get_name() == "test" => Some(
+            "each step of a case says how long it runs, by `run_ms` or `scans` (rungc book test-files)"
+                .to_string(),
+        ),
+        None => None,
+    }
 }
 
 /// Reports arguments that cannot be used, or prints what `--help` asks for, and ends the process. Arguments are shown

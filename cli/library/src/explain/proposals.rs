@@ -28,7 +28,8 @@ pub fn unknown(topic: &str, plc: Option<Plc>, others: &[&str]) -> String {
             ),
         };
     }
-    let hint = near_name(topic, &upper, others).map(|near| format!("; did you mean `{near}`?"));
+    let near = lettered_error(&upper, plc).or_else(|| near_name(topic, &upper, others));
+    let hint = near.map(|near| format!("; did you mean `{near}`?"));
     format!(
         "`{topic}` is not a diagnostic code, PLC error code, instruction, special device, model, safety \
         function or page of the book{}",
@@ -67,6 +68,14 @@ fn own_code(number: u16) -> Option<String> {
         .map(|code| code.id)
         .find(with_number)?;
     Some(format!("; did you mean `{id}`?"))
+}
+
+/// The PLC error that a topic names with letters in front: `E6706`.
+fn lettered_error(upper: &str, plc: Option<Plc>) -> Option<String> {
+    let digits = upper.trim_start_matches(|c: char| c.is_ascii_alphabetic() || " -:".contains(c));
+    let number = digits.parse().ok().filter(|_| !digits.starts_with('0'))?;
+    let is_known = models(plc).any(|id| plc_errors::find(number, id).is_some());
+    is_known.then(|| digits.to_owned())
 }
 
 /// The error codes nearest to one that does not exist, as the end of a message.

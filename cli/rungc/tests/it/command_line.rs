@@ -353,6 +353,9 @@ fn unknown_topics_get_proposals() {
         ("h2u-mtx", "`h2u-mtp`"),
         ("fx3w", "`fx3"),
         ("dubble-coil", "`double-coil`"),
+        ("E6706", "did you mean `6706`?"),
+        ("w6105", "did you mean `6105`?"),
+        ("Error 6707", "did you mean `6707`?"),
     ] {
         let found = rungc(folder.path(), &["explain", topic]);
         assert_eq!(found.status.code(), Some(2), "{topic}");

@@ -131,6 +131,29 @@ fn a_full_disk_is_an_error_that_names_the_stream() {
     }
 }
 
+/// Options of other tools and commands have a tip.
+#[test]
+fn unknown_options_have_a_tip() {
+    let folder = folder(&[]);
+    for (args, tip) in [
+        (["run", "--duration"], "this is '--for' here"),
+        (["explore", "--duration"], "this is '--timeout' here"),
+        (["check", "--cpu"], "this is '--model' here"),
+        (
+            ["test", "--duration"],
+            "each step of a case says how long it runs",
+        ),
+    ] {
+        let output = rungc(folder.path(), &[&args[..], &["5"]].concat());
+        let said = text(&output.stderr);
+        assert!(
+            said.contains(tip) && said.matches("tip:").count() == 1,
+            "{said}"
+        );
+        assert_eq!(output.status.code(), Some(2));
+    }
+}
+
 /// Words of other tools have a command here, and misspelt commands the one that is nearest.
 #[test]
 fn unknown_commands_have_a_tip() {
