@@ -56,7 +56,7 @@ fn a_counter_whose_coil_and_rst_take_turns_remembers_by_its_coil() {
         "LD X0\nRST C0\nLD X1\nOUT C0 K5\nEND\n",
         "LD X1\nOUT C0 K5\nLD X0\nRST C0\nEND\n",
         "LD X0\nMC N0 M10\nLD X1\nRST C200\nMCR N0\nLD X2\nOUT C200 K5\nEND\n",
-        "LD X9\nCALL P1\nFEND\nP1\nLD X0\nRST C0\nLD X1\nOUT C0 K5\nSRET\nEND\n",
+        "LD X10\nCALL P1\nFEND\nP1\nLD X0\nRST C0\nLD X1\nOUT C0 K5\nSRET\nEND\n",
     ] {
         assert_eq!(memory(text), (Vec::new(), true), "{text}");
     }
@@ -73,11 +73,11 @@ fn others_take_a_bit() {
     for (text, expected) in [
         // Another routine, a jump, a state, a loop, a second coil, a second RST, a timer before its RST.
         (
-            "LD X9\nCALL P1\nLD X1\nOUT C0 K5\nFEND\nP1\nLD X0\nRST C0\nSRET\nEND\n",
+            "LD X10\nCALL P1\nLD X1\nOUT C0 K5\nFEND\nP1\nLD X0\nRST C0\nSRET\nEND\n",
             "c0_reset",
         ),
         (
-            "LD X9\nCJ P1\nLD X0\nRST C0\nP1\nLD X1\nOUT C0 K5\nEND\n",
+            "LD X10\nCJ P1\nLD X0\nRST C0\nP1\nLD X1\nOUT C0 K5\nEND\n",
             "c0_reset",
         ),
         (
@@ -101,7 +101,7 @@ fn others_take_a_bit() {
             "t250_reset retained",
         ),
         (
-            "LD X9\nCALL P1\nLD X1\nOUT C100 K5\nFEND\nP1\nLD X0\nRST C100\nSRET\nEND\n",
+            "LD X10\nCALL P1\nLD X1\nOUT C100 K5\nFEND\nP1\nLD X0\nRST C100\nSRET\nEND\n",
             "c100_reset retained",
         ),
     ] {
