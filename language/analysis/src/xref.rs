@@ -87,6 +87,23 @@ impl Use {
         };
         self.first.number.saturating_add(count)
     }
+
+    /// Returns true if it writes the device, or may: by an index, or by a number of devices that a register holds.
+    pub fn may_write(&self, device: Device) -> bool {
+        use UseKind::{Change, Coil, Reset, Set, Write};
+        matches!(self.kind, Coil | Set | Reset | Write | Change) && self.may_concern(device)
+    }
+
+    /// Returns true if it concerns the device, or may.
+    pub fn may_concern(&self, device: Device) -> bool {
+        let begins = self.first.number <= device.number;
+        let meets = match self.reach {
+            Reach::Count(_) => begins && device.number < self.end(),
+            Reach::Open => begins,
+            Reach::Indexed => true,
+        };
+        self.first.class == device.class && meets
+    }
 }
 
 /// Devices that the same uses concern.

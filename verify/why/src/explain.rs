@@ -8,7 +8,7 @@ use crate::sites::Sites;
 use crate::trace::{Fixed, Recorder, Scan, Trace};
 use crate::words::Words;
 use rungc_analysis::resolve::resolve;
-use rungc_analysis::xref::{CrossReference, Reach, Use, UseKind};
+use rungc_analysis::xref::{CrossReference, Reach, Use};
 use rungc_interp::{Machine, rt_class};
 use rungc_ir::Module;
 use rungc_ir::node::FunctionKind;
@@ -177,20 +177,8 @@ impl<'p> Explainer<'p> {
 
     /// The instructions that may write a device, with their uses.
     pub(crate) fn writes(&self, device: Device) -> Vec<Use> {
-        let writes = |one: &&Use| {
-            let kind = matches!(
-                one.kind,
-                UseKind::Coil | UseKind::Set | UseKind::Reset | UseKind::Write | UseKind::Change
-            );
-            let begins = one.first.number <= device.number;
-            let meets = match one.reach {
-                Reach::Count(_) => begins && device.number < one.end(),
-                Reach::Open => begins,
-                Reach::Indexed => true,
-            };
-            kind && one.first.class == device.class && meets
-        };
-        let mut found: Vec<Use> = self.uses.iter().filter(writes).copied().collect();
+        let writes = self.uses.iter().filter(|one| one.may_write(device));
+        let mut found: Vec<Use> = writes.copied().collect();
         found.dedup_by_key(|one| one.instr);
         found
     }

@@ -8,6 +8,7 @@ use crate::args::Properties;
 use crate::report::{Findings, Reporter};
 use rungc::Names;
 use rungc_analysis::resolve::resolve;
+use rungc_analysis::xref::{CrossReference, Reach, Use};
 use rungc_frontend::Read;
 use rungc_functions::Expanded;
 use rungc_ir::Module;
@@ -18,7 +19,7 @@ use rungc_project::property::Row;
 use rungc_project::{Named, Project};
 use rungc_sim::property::{Condition, ParseError, Property};
 use rungc_sim::{Target, check_lasts};
-use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, OperandKind, Program, Span};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Label, Program, Span};
 use rungc_verify::request;
 pub use rungc_verify::request::{ExternalWrites, stated};
 use std::ops::RangeInclusive;
@@ -302,7 +303,7 @@ pub fn report_undriven(
     Ok(reporter.add(&findings)?)
 }
 
-/// A diagnostic at the instructions that write these devices, if there are any.
+/// A diagnostic at the instructions that write these devices, or at the first that uses one if none does.
 pub fn at_writes(
     mut diagnostic: Diagnostic,
     devices: &[(DeviceClass, u32)],
@@ -310,28 +311,39 @@ pub fn at_writes(
     model: &'static Model,
 ) -> Diagnostic {
     let (resolved, _) = resolve(&read.program, model);
-    let mut places = resolved.program.instrs.iter().filter_map(|instr| {
-        let drives = matches!(
-            instr.mnemonic.as_str(),
-            "OUT" | "SET" | "RST" | "PLS" | "PLF" | "ALT"
-        );
-        let operand = instr.operands.first().filter(|_| drives)?;
-        let OperandKind::Device(device, None) = operand.kind else {
-            return None;
+    let uses = CrossReference::new(&resolved).uses;
+    let devices = devices
+        .iter()
+        .map(|&(class, number)| Device { class, number });
+    let devices: Vec<_> = devices.collect();
+    let label = |one: &Use, device: &Device, what: &str| Label {
+        span: read.program.instrs[one.instr].span,
+        text: format!("`{device}` {what} here").into(),
+    };
+    let writes = uses.iter().filter_map(|one| {
+        let device = devices.iter().find(|&&device| one.may_write(device))?;
+        let is_certain = matches!(one.reach, Reach::Count(_));
+        let what = if is_certain {
+            "is written"
+        } else {
+            "may be written"
         };
-        devices
-            .contains(&(device.class, device.number))
-            .then_some((instr.span, device))
+        Some(label(one, device, what))
     });
-    if let Some((span, device)) = places.next() {
-        diagnostic.span = span;
-        diagnostic.label = format!("`{device}` is written here").into();
-        diagnostic.others = places
-            .map(|(span, device)| rungc_syntax::Label {
-                span,
-                text: format!("`{device}` is written here").into(),
-            })
-            .collect();
+    let mut labels: Vec<_> = writes.collect();
+    labels.dedup_by_key(|label| label.span);
+    if labels.is_empty() {
+        let reads = |one: &Use| {
+            let device = devices.iter().find(|&&device| one.may_concern(device))?;
+            Some(label(one, device, "is used"))
+        };
+        labels.extend(uses.iter().find_map(reads));
+    }
+    let mut labels = labels.into_iter();
+    if let Some(first) = labels.next() {
+        diagnostic.span = first.span;
+        diagnostic.label = first.text;
+        diagnostic.others = labels.collect();
     }
     diagnostic
 }

@@ -87,7 +87,7 @@ pub fn findings(subject: &Subject, read: &Read, checked: &Compiled) -> Found {
 }
 
 /// Returns true if an instruction writes a device as its first operand, such as a coil.
-pub fn writes(instr: &Instr, device: Device, model: &Model) -> bool {
+fn writes(instr: &Instr, device: Device, model: &Model) -> bool {
     let Some(found) = rungc_catalogue::find(&instr.mnemonic) else {
         return false;
     };

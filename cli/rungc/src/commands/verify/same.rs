@@ -5,8 +5,7 @@ use super::evidence::same::Comparison;
 use super::evidence::{self, Basis};
 use super::{export, report};
 use crate::args::{Input, VerifyArgs};
-use crate::commands::check::deep::writes;
-use crate::commands::properties::{Reader, module};
+use crate::commands::properties::{Reader, at_writes, module};
 use crate::commands::subject;
 use crate::commands::{Context, Failure, Outcome, Result, counted, read};
 use crate::report::junit::{self, Case, Problem, Properties, properties};
@@ -16,7 +15,7 @@ use rungc_ir::Module;
 use rungc_sim::Target;
 use rungc_sim::property::{Condition, Property, Reading};
 use rungc_syntax::codes::{self, Code};
-use rungc_syntax::{Device, DeviceClass, Diagnostics};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Span};
 use rungc_verify::certificate;
 use rungc_verify::prove::{Options, Verdict};
 use rungc_verify::replay::Change;
@@ -190,18 +189,12 @@ fn publish(
     let mut diagnostics = Diagnostics::new();
     let model = rungc_lower::compile::model(program, &subject.options());
     for output in outputs {
-        let name = named(output);
         let Some((code, text)) = finding(output) else {
             continue;
         };
-        let instrs = program.instrs.iter();
-        let mut written = instrs.filter(|instr| writes(instr, name, model));
-        let span = written.next().map(|instr| instr.span);
-        let mut diagnostic = code.at(span.unwrap_or_default(), text);
-        if span.is_some() {
-            diagnostic.label = format!("`{name}` is written here").into();
-        }
-        diagnostics.push(diagnostic);
+        let devices = [(DeviceClass::Y, output.number)];
+        let diagnostic = code.at(Span::default(), text);
+        diagnostics.push(at_writes(diagnostic, &devices, basis.read, model));
     }
     let mut findings = Findings::new(&subject.file, program, diagnostics, &subject.reporting);
     let file = rungc::location::named(&subject.file);

@@ -2,7 +2,7 @@
 
 use super::Basis;
 use rungc_analysis::resolve::{Resolved, resolve};
-use rungc_analysis::xref::{CrossReference, UseKind};
+use rungc_analysis::xref::CrossReference;
 use rungc_evidence::{Change, Network, Number, Run, Value};
 use rungc_ir::Module;
 use rungc_ladder::drawing::Drawing;
@@ -12,7 +12,7 @@ use rungc_sim::Target;
 use rungc_sim::property::{self, Condition, Property};
 use rungc_sim::record::plot::{CurveId, Diagram, Plot, Shape};
 use rungc_sim::record::{Reading, Seen};
-use rungc_syntax::DeviceClass;
+use rungc_syntax::{Device, DeviceClass};
 use rungc_verify::replay::{self, Setting, story};
 use rungc_verify::search::Trace;
 
@@ -150,19 +150,14 @@ fn pictures(
     (timing.diagram(), networks)
 }
 
-/// The networks that write one of these devices, by their index.
+/// The networks that write one of these devices, or may, by their index.
 fn writing(resolved: &Resolved, ladder: &Ladder, devices: &[(DeviceClass, u32)]) -> Vec<usize> {
     let uses = CrossReference::new(resolved).uses;
     let writes: Vec<usize> = uses
         .iter()
         .filter(|used| {
-            use UseKind::{Change, Coil, Reset, Set, Write};
-            matches!(used.kind, Coil | Set | Reset | Write | Change)
-        })
-        .filter(|used| {
-            let numbers = used.first.number..used.end();
             let mut devices = devices.iter();
-            devices.any(|(class, number)| *class == used.first.class && numbers.contains(number))
+            devices.any(|&(class, number)| used.may_write(Device { class, number }))
         })
         .map(|used| used.instr)
         .collect();
