@@ -38,7 +38,10 @@ impl Project {
                 self.exists(range, model)?;
             }
             self.add_external(program);
-            self.add_labels(program, model)?;
+            for Label { device, span, .. } in &self.labels {
+                self.exists(&Range::one(*device, *span), model)?;
+            }
+            self.name_devices(file, program);
         }
         if self.latched.is_empty() {
             return Ok(());
@@ -55,12 +58,13 @@ impl Project {
         Ok(())
     }
 
-    fn add_labels(&self, program: &mut Program, model: &Model) -> Result<(), Error> {
-        for Label { name, device, span } in &self.labels {
-            self.exists(&Range::one(*device, *span), model)?;
-            program.comments.insert(*device, name.clone());
+    /// Gives devices of the program of `file` the names of `[labels]`, in place of their comments.
+    pub fn name_devices(&self, file: &Path, program: &mut Program) {
+        if !self.labels.is_empty() && self.is_about(file) {
+            let labels = self.labels.iter();
+            let names = labels.map(|label| (label.device, label.name.clone()));
+            program.comments.extend(names);
         }
-        Ok(())
     }
 
     /// Adds instructions to the end of the main program. A program without an end is not compiled.

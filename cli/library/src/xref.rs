@@ -168,11 +168,8 @@ impl Table {
 
 impl Line {
     fn new(resolved: &Resolved, ladder: &Ladder, one: &Use) -> Line {
-        let before = ladder
-            .networks
-            .partition_point(|network| network.instrs.end <= one.instr);
         Line {
-            network: before + 1,
+            network: ladder.position(one.instr) + 1,
             step: resolved.instrs[one.instr].step,
             kind: one.kind.word(),
             instruction: resolved.program.instrs[one.instr].to_string(),

@@ -1,7 +1,8 @@
 //! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file, `cargo xtask
 //! package` the crates that are published, `cargo xtask dist` the packages that users install, `cargo xtask platforms`
-//! checks other systems, `cargo xtask campaign` compares engines for hours, `cargo xtask pairs` measures the prover. No
-//! crate may depend on this one. Start reading at `generate.rs`, the table of generated files.
+//! checks other systems, `cargo xtask campaign` compares engines for hours, `cargo xtask pairs` measures the prover,
+//! `cargo xtask sources` the compiler of structured text. No crate may depend on this one. Start reading at
+//! `generate.rs`, the table of generated files.
 
 mod book;
 mod campaign;
@@ -13,6 +14,7 @@ mod package;
 mod pairs;
 mod platforms;
 mod rungc;
+mod sources;
 mod tools;
 
 use clap::{Parser, Subcommand};
@@ -41,6 +43,8 @@ enum Chore {
     Campaign(campaign::Args),
     /// Measure the prover's precision: decide which outputs of real programs exclude each other.
     Pairs(pairs::Args),
+    /// Compare the structured text of real projects with what GX Works2 compiled.
+    Sources(sources::Args),
 }
 
 /// Error of a chore, as a message.
@@ -59,6 +63,7 @@ fn main() -> ExitCode {
         Chore::Platforms(args) => platforms::run(&args),
         Chore::Campaign(args) => campaign::run(&args),
         Chore::Pairs(args) => pairs::run(&args),
+        Chore::Sources(args) => sources::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

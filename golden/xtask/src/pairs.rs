@@ -100,7 +100,9 @@ fn programs(path: &Path, found: &mut Vec<PathBuf>) -> Result<(), Problem> {
 
 /// The verdicts on a program; `None` if it is none, does not compile, or drives fewer than two outputs.
 fn examined(path: &Path, args: &Args) -> Option<Tally> {
-    let program = rungc_frontend::read(path).ok()?.program;
+    let mut read = rungc_frontend::read(path).ok()?;
+    rungc::structured::compile(&mut read, None);
+    let program = read.program;
     let options = CompileOptions {
         optimise: false,
         ..CompileOptions::default()

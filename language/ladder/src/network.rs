@@ -10,6 +10,14 @@ pub struct Ladder {
     pub networks: Vec<Network>,
 }
 
+impl Ladder {
+    /// Position of the network that holds an instruction.
+    pub fn position(&self, instr: InstrIndex) -> usize {
+        self.networks
+            .partition_point(|network| network.instrs.end <= instr)
+    }
+}
+
 /// A circuit connected to the left rail at one place, with the labels before it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Network {

@@ -80,8 +80,11 @@ const RULES: [Rule; 16] = [
     rule(
         "xref",
         "unused",
-        |m| m.get_one::<XrefTo>("to") != Some(&XrefTo::Csv),
-        "a table has a line for each use, so it has none for unused devices: use --to text, html or json",
+        |m| {
+            let to = m.get_one::<XrefTo>("to");
+            !matches!(to, Some(XrefTo::Csv | XrefTo::Io | XrefTo::Tags))
+        },
+        "a table has no lines for unused devices: use --to text, html or json",
     ),
     rule(
         "diff",

@@ -105,4 +105,8 @@ pub enum XrefTo {
     Html,
     /// JSON: one object.
     Json,
+    /// A table (CSV) of the terminals, used and free, with their comments.
+    Io,
+    /// A table (CSV) of devices as tags of a SCADA system: names, types, Modbus addresses.
+    Tags,
 }

@@ -174,6 +174,18 @@ pub fn read_as_written(
     }
 }
 
+/// Reads a program as its author wrote it, with the names that the settings give its devices.
+pub fn read_with_names(
+    subject: &Subject,
+    reporter: &mut Reporter,
+) -> std::result::Result<Read, Failure> {
+    let mut read = read_as_written(subject, reporter)?;
+    if let Some(project) = &subject.project {
+        project.name_devices(&subject.file, &mut read.program);
+    }
+    Ok(read)
+}
+
 /// Reports options for reading that have no effect on a program of this kind; among several, they are for others.
 fn report_idle(subject: &Subject, kind: SourceKind, reporter: &Reporter) {
     if reporter.many() {

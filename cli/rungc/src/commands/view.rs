@@ -2,7 +2,7 @@
 
 use super::setting;
 use super::subject::{self, OutputPaths, Subject, option_of};
-use super::{Context, Failure, Outcome, Result, found_reading, print_text, read_as_written, stem};
+use super::{Context, Failure, Outcome, Result, found_reading, print_text, read_with_names, stem};
 use crate::args::ViewArgs;
 use crate::output::write_file;
 use crate::report::Reporter;
@@ -45,7 +45,7 @@ fn view(
     outputs: &mut OutputPaths,
 ) -> Result {
     // As its author drew it: without what the settings add.
-    let read = read_as_written(subject, reporter)?;
+    let read = read_with_names(subject, reporter)?;
     let findings = found_reading(subject, &read);
     reporter.add(&findings)?;
     let options = subject.options();

@@ -5,7 +5,7 @@ use super::read::compare;
 use super::subject::{self, Subject};
 use super::{
     Context, Failure, Outcome, Result, counted, eprint_line, findings, found_reading, interruption,
-    read_as_written, stream_text,
+    read_with_names, stream_text,
 };
 use crate::args::{WatchArgs, WatchTo};
 use crate::report::Reporter;
@@ -44,7 +44,7 @@ fn watch(
     subject: &Subject,
     (reporter, cx): (&mut Reporter, Context),
 ) -> Result {
-    let read = read_as_written(subject, reporter)?;
+    let read = read_with_names(subject, reporter)?;
     let findings = found_reading(subject, &read);
     if findings.failed() {
         reporter.add(&findings)?;

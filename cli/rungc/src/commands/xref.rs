@@ -6,14 +6,14 @@ mod html;
 use super::setting;
 use super::subject::{self, OutputPaths, Subject, option_of};
 use super::{
-    Context, Failure, Outcome, Result, found_reading, print_bytes, print_text, read_as_written,
+    Context, Failure, Outcome, Result, found_reading, print_bytes, print_text, read_with_names,
     stem,
 };
 use crate::args::{XrefArgs, XrefTo};
 use crate::output::{self, write_file};
 use crate::report::{Reporter, to_json};
-use rungc::Names;
 use rungc::xref::Table;
+use rungc::{Names, lists};
 use rungc_analysis::resolve::resolve;
 use rungc_ladder::build;
 use rungc_lower::compile;
@@ -33,7 +33,7 @@ fn xref(
     outputs: &mut OutputPaths,
 ) -> Result {
     // The program as written, without the additions of the settings.
-    let read = read_as_written(subject, reporter)?;
+    let read = read_with_names(subject, reporter)?;
     let program = &read.program;
     let findings = found_reading(subject, &read);
     reporter.add(&findings)?;
@@ -41,8 +41,11 @@ fn xref(
     let (resolved, _) = resolve(program, model);
     let names = Names::of(program);
     let ranges = setting::ranges(&option_of("--device", subject), &args.device, &names)?;
-    let table = Table::new(&resolved, &build::ladder(&resolved), &ranges);
-    if table.devices.is_empty() && !args.device.is_empty() {
+    let ladder = build::ladder(&resolved);
+    let table = Table::new(&resolved, &ladder, &ranges);
+    // What no instruction uses may be a free terminal, or a tag by its comment.
+    let is_about_uses = !matches!(args.to, XrefTo::Io | XrefTo::Tags);
+    if is_about_uses && table.devices.is_empty() && !args.device.is_empty() {
         let path = subject.file.display();
         let why = format!("{path}: no instruction names these devices");
         return Err(Failure::Because(why));
@@ -53,6 +56,11 @@ fn xref(
         XrefTo::Csv => (csv::table(&table)?, "csv"),
         XrefTo::Html => (html::page(&name, &table).into_bytes(), "html"),
         XrefTo::Json => (to_json(&table)?.into_bytes(), "json"),
+        XrefTo::Io => {
+            let list = lists::terminals(&resolved, &ladder, subject.variant, &ranges);
+            (csv::for_spreadsheets(&csv::records(list)?), "io.csv")
+        }
+        XrefTo::Tags => (csv::records(lists::tags(&resolved, &ranges))?, "tags.csv"),
     };
     if output::file(&args.output).is_none() && args.to == XrefTo::Text {
         let heading = match reporter.many() {

@@ -72,4 +72,10 @@ super::codes! {
     "The numbers of programs, function blocks, functions, structures and labels of a GX Works2 project, and the languages of its sources. rungc runs the compiled program; `rungc convert --to st` writes the sources as text, for reading and for version control, and `--to labels` the labels. Devices without a comment have the names of their labels: `Start`, `Axis1.Ready`, `Main.Step` of a label of a POU.",
     wrong: "",
     right: "";
+
+    COMPARED = "N0014" "compared-with-source" Note None,
+    "the structured text of a project, compared with its compiled program",
+    "rungc compiles the structured text of a GX Works2 project as the editor does, and looks for the same instructions in the compiled program; the numbers of automatic devices and of jumps do not matter. If the compiled program consists of these instructions, it is what its source says, and note N0012 does not appear. Other instructions are a sign that a statement was changed after the last compilation: choose Compile > Rebuild All in GX Works2 and save. They may also come from a construct that GX Works2 compiles in a way that rungc does not know. Ladders with labels, structured ladder and SFC are not compared.",
+    wrong: "",
+    right: "";
 }

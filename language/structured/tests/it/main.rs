@@ -3,7 +3,6 @@
 
 mod behaviour;
 mod model;
-mod oracle;
 mod random;
 mod robust;
 mod texts;

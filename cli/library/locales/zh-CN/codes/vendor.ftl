@@ -57,3 +57,8 @@ N0012 = 编译后的程序可能比源程序旧
 # The numbers of programs, function blocks, functions, structures and labels of a GX Works2 project, and the languages of its sources. rungc runs the compiled program; `rungc convert --to st` writes the sources as text, for reading and for version control, and `--to labels` the labels. Devices without a comment have the names of their labels: `Start`, `Axis1.Ready`, `Main.Step` of a label of a POU.
 N0013 = 工程中编译后的程序以外的内容
     .text = GX Works2 工程的程序、功能块、功能、结构体和标签的个数，以及源程序的语言。rungc 运行编译后的程序；`rungc convert --to st` 把源程序写成文本，便于阅读和版本管理，`--to labels` 写出标签。没有注释的软元件使用其标签的名称：`Start`、`Axis1.Ready`，POU 的标签为 `Main.Step`。
+
+# the structured text of a project, compared with its compiled program
+# rungc compiles the structured text of a GX Works2 project as the editor does, and looks for the same instructions in the compiled program; the numbers of automatic devices and of jumps do not matter. If the compiled program consists of these instructions, it is what its source says, and note N0012 does not appear. Other instructions are a sign that a statement was changed after the last compilation: choose Compile > Rebuild All in GX Works2 and save. They may also come from a construct that GX Works2 compiles in a way that rungc does not know. Ladders with labels, structured ladder and SFC are not compared.
+N0014 = 工程的结构化文本与编译后程序的比较
+    .text = rungc 像编辑软件一样编译 GX Works2 工程的结构化文本，并在编译后的程序中查找相同的指令；自动分配的软元件和跳转的编号不作区别。如果编译后的程序就是由这些指令组成的，那么它与源程序一致，不显示说明 N0012。指令不同，表明某个语句在上次编译之后改动过：在 GX Works2 中选择 Compile > Rebuild All（全部编译）并保存。也可能是 rungc 不知道 GX Works2 如何编译某种语句。带标签的梯形图、结构化梯形图和 SFC 不作比较。

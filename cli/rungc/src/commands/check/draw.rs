@@ -33,9 +33,7 @@ pub fn networks(
         if program.instrs[at].span.end < place || diagnostic.span.range().is_empty() {
             return None;
         }
-        let number = ladder
-            .networks
-            .partition_point(|network| network.instrs.end <= at);
+        let number = ladder.position(at);
         let network = ladder.networks.get(number)?;
         Some(draw_marked(&resolved, (number + 1, network), style, at))
     });

@@ -19,22 +19,32 @@ struct Record<'a> {
 
 /// A line for each use, with headers.
 pub fn table(table: &Table) -> Result<Vec<u8>, Failure> {
+    let lines = table.devices.iter().flat_map(|entry| {
+        entry.uses.iter().map(move |line| Record {
+            first: &entry.area.first,
+            last: &entry.area.last,
+            comment: &entry.comment,
+            network: line.network,
+            step: line.step,
+            r#use: line.kind,
+            instruction: &line.instruction,
+            reach: line.reach.unwrap_or_default(),
+        })
+    });
+    records(lines)
+}
+
+/// Records, with headers.
+pub fn records<T: Serialize>(records: impl IntoIterator<Item = T>) -> Result<Vec<u8>, Failure> {
     let failed = |error: &dyn std::fmt::Display| Failure::Because(error.to_string());
     let mut out = ::csv::Writer::from_writer(Vec::new());
-    for entry in &table.devices {
-        for line in &entry.uses {
-            let record = Record {
-                first: &entry.area.first,
-                last: &entry.area.last,
-                comment: &entry.comment,
-                network: line.network,
-                step: line.step,
-                r#use: line.kind,
-                instruction: &line.instruction,
-                reach: line.reach.unwrap_or_default(),
-            };
-            out.serialize(record).map_err(|error| failed(&error))?;
-        }
+    for record in records {
+        out.serialize(record).map_err(|error| failed(&error))?;
     }
     out.into_inner().map_err(|error| failed(&error))
+}
+
+/// A table as Excel opens it: without the mark in front, it takes the text for one of the local encoding.
+pub fn for_spreadsheets(table: &[u8]) -> Vec<u8> {
+    [b"\xef\xbb\xbf", table].concat()
 }

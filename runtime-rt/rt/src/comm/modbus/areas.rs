@@ -60,6 +60,20 @@ impl Area {
         address.wrapping_sub(self.address) < self.count
     }
 
+    /// Address of a device, or of the first half of a 32-bit counter; `None` if it is not among these, or shares a
+    /// register with others.
+    pub fn address_of(&self, class: Class, number: u32) -> Option<u16> {
+        let offset = number.checked_sub(self.first)?;
+        let offset = match self.fill {
+            _ if class != self.class => return None,
+            Fill::Bits | Fill::Words => offset,
+            Fill::Counters => offset.checked_mul(2)?,
+            Fill::Coils | Fill::Packed => return None,
+        };
+        let offset = u16::try_from(offset).ok()?;
+        (offset < self.count).then(|| self.address.wrapping_add(offset))
+    }
+
     /// The content of an address that is one of these.
     #[inline(always)]
     fn place(&self, address: u16) -> Place {
