@@ -163,6 +163,13 @@ static OF_PROGRAMS: &[PlcError] = &[
         MODULES,
     ),
     row(
+        6708,
+        ModelSet::FX1S.or(ModelSet::FX3S),
+        "VRRD or VRSC failed",
+        "VRRD or VRSC reads a potentiometer that is not there. The instruction is skipped.",
+        "Check the number of the potentiometer, and whether the board that has it is fitted.",
+    ),
+    row(
         6730,
         ALL,
         "PID: the sampling time is not 1 to 32767 ms",
@@ -472,8 +479,8 @@ mod tests {
     fn shown(model: &Model) -> Vec<u16> {
         let mut codes = vec![6105, 6701, 6702, 6706, model.value_error];
         codes.extend([6730, 6732, 6733, 6734, 6735, 6736, 6740, 6742, 6747, 6751]);
-        // These have no FROM and TO.
-        if ![ModelId::Hm, ModelId::Fx1s, ModelId::Fx3s].contains(&model.id) {
+        // HM has no modules and no potentiometers.
+        if model.id != ModelId::Hm {
             let separate = model.value_error == 6707;
             codes.push(if separate { 6750 } else { 6708 });
         }

@@ -17,7 +17,7 @@ use crate::progress;
 use crate::report::Reporter;
 use fitting::fitting;
 use rungc::Names;
-use rungc::language::message;
+use rungc::language::{Language, message};
 use rungc_codegen_c::lanes;
 use rungc_codegen_rust::Runtime;
 use rungc_emit::OutFile;
@@ -129,14 +129,19 @@ fn build(
             Some(path) => ("emitted", path),
             None => ("measured", &subject.file),
         };
-        let (path, model) = (path.display().to_string(), module.model.name.to_uppercase());
-        let arguments = [
-            ("path", (&path).into()),
-            ("model", (&model).into()),
-            ("steps", (module.steps as usize).into()),
-        ];
-        message(language, id, &arguments)
+        closing(language, id, path, &module)
     })
+}
+
+/// What was written or measured.
+fn closing(language: Language, id: &str, path: &Path, module: &Module) -> String {
+    let (path, model) = (path.display().to_string(), module.model.name.to_uppercase());
+    let arguments = [
+        ("path", (&path).into()),
+        ("model", (&model).into()),
+        ("steps", (module.steps as usize).into()),
+    ];
+    message(language, id, &arguments)
 }
 
 impl Plan {

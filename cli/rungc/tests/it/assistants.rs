@@ -1,7 +1,7 @@
 //! `rungc mcp` under the official clients, `rungc guide`, and what `rungc init` writes for assistants.
 
+use crate::common::clients::{node, python, succeeds};
 use crate::common::{code, folder, rungc, text};
-use crate::peers::{node, python, succeeds};
 use std::fs;
 use std::io::Write;
 use std::path::Path;

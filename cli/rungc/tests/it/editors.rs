@@ -1,7 +1,7 @@
 //! `rungc lsp` under clients that others have written: pytest-lsp, and Neovim if it is there.
 
+use crate::common::clients::{client, python, succeeds, there};
 use crate::common::folder;
-use crate::peers::{client, python, succeeds, there};
 use std::process::Command;
 
 #[test]

@@ -37,6 +37,33 @@ fn a_cross_reference_is_a_table_a_page_or_json() {
 }
 
 #[test]
+fn terminals_and_tags_are_tables() {
+    let program = format!(
+        "{}{USES}",
+        ";! X003 = Not-Halt 1\n;! Y001 = lamp, green\n;! D20 = speed\n;! D30 = 1. Rezept\n;! C200 = pieces\n;! M8013 = clock\n"
+    );
+    let folder = folder(&[("uses.il", program.as_bytes())]);
+    let written = |args: &[&str]| shown(folder.path(), &[&["xref", "uses.il"], args].concat());
+    let bytes = |args: &[&str]| {
+        let all = [&["xref", "uses.il", "--to", "io"], args].concat();
+        rungc(folder.path(), &all).stdout
+    };
+    assert!(
+        bytes(&[]).starts_with(b"\xef\xbb\xbf"),
+        "Excel reads it as UTF-8"
+    );
+    insta::assert_snapshot!("xref_io", written(&["--to", "io"]).replace('\u{feff}', ""));
+    insta::assert_snapshot!("xref_tags", written(&["--to", "tags"]));
+    // Each model has its own addresses.
+    let one = ["--to", "tags", "--model", "h2u", "--device", "X000"];
+    insta::assert_snapshot!("xref_tags_h2u", written(&one));
+    assert!(bytes(&["--device", "X007"]).ends_with(b"\nX007,,,\n"));
+    // A heading, and 24 inputs and 16 outputs.
+    let all = text(&bytes(&["--model", "h2u-2416"]));
+    assert_eq!(all.lines().count(), 1 + 24 + 16);
+}
+
+#[test]
 fn what_a_cross_reference_cannot_do_is_reported() {
     let files: [(&str, &[u8]); 2] = [("a.il", USES.as_bytes()), ("b.il", MOTOR.as_bytes())];
     let folder = folder(&files);

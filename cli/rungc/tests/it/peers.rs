@@ -3,11 +3,12 @@
 //! peer that is not there is skipped with a message, or missed if one of these variables, or `RUNGC_REQUIRE_PEERS` for
 //! packages of the system, is set.
 
+use crate::common::clients::{client, node, python, succeeds, there};
 use crate::common::running::Run;
 use crate::common::{folder, free_port, soon, text};
 use crate::connected::Form;
 use std::env;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use tempfile::TempDir;
 
@@ -64,59 +65,6 @@ END
 
 fn program(text: &str) -> TempDir {
     folder(&[("p.il", text.as_bytes())])
-}
-
-pub fn client(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/clients")
-        .join(name)
-}
-
-/// Returns true if the peer is installed. If it is not, but `variable` says that it has to be, the test fails.
-pub fn there(peer: &str, variable: &str, mut look: Command) -> bool {
-    let look = look.stdout(Stdio::null()).stderr(Stdio::null());
-    if look.status().is_ok_and(|status| status.success()) {
-        return true;
-    }
-    assert!(
-        env::var_os(variable).is_none(),
-        "{variable} is set, but there is no {peer}"
-    );
-    eprintln!("skipped: there is no {peer} ({variable}; see .ci/run)");
-    false
-}
-
-/// Runs a client to its end, which is well if it says so.
-pub fn succeeds(mut client: Command) -> String {
-    let output = client.output().unwrap();
-    let (shown, errors) = (text(&output.stdout), text(&output.stderr));
-    assert!(output.status.success(), "{shown}{errors}");
-    shown
-}
-
-/// A client of `tests/clients` for Python, if there is a Python that has the module.
-pub fn python(module: &str, script: &str) -> Option<Command> {
-    let python = env::var_os("RUNGC_PYTHON").unwrap_or_else(|| "python3".into());
-    let mut import = Command::new(&python);
-    import.args(["-c", &format!("import {module}")]);
-    let mut run = Command::new(&python);
-    run.arg(client(script));
-    there(module, "RUNGC_PYTHON", import).then_some(run)
-}
-
-/// A client of `tests/clients` for Node, if the package is there.
-pub fn node(package: &str, script: &str) -> Option<Command> {
-    let modules = env::var_os("RUNGC_NODE_MODULES").unwrap_or_default();
-    let command = || {
-        let mut command = Command::new("node");
-        command.env("NODE_PATH", &modules);
-        command
-    };
-    let mut require = command();
-    require.args(["-e", &format!("require('{package}')")]);
-    let mut run = command();
-    run.arg(client(script));
-    there(package, "RUNGC_NODE_MODULES", require).then_some(run)
 }
 
 /// Runs a client, where there is one, against a server of a running program: the option that opens it, and its name.

@@ -40,6 +40,7 @@ fn sources_become_a_folder() {
         "Twice.txt",
         "labels/Global1.st",
         "libraries/Maths/Half.st",
+        "libraries/Maths/structures/Point.st",
         "structures/Axis.st",
         "tasks.txt",
     ];

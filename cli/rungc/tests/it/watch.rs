@@ -1,8 +1,8 @@
 //! `rungc watch`, and `rungc why` of a PLC: against a running program, by each connection, and against a PLC of others.
 
+use crate::common::clients::python;
 use crate::common::running::Run;
 use crate::common::{HANG, folder, rungc, soon, text};
-use crate::peers::python;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::Path;

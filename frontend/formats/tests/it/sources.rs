@@ -32,6 +32,22 @@ fn shown(files: &[SourceFile]) -> String {
         .collect()
 }
 
+/// The project is among the seeds of the fuzz targets, where other tests take it from. `RUNGC_WRITE_SEEDS` writes it.
+#[test]
+fn the_project_is_a_seed_of_the_fuzz_targets() {
+    let path = Path::new(env!("RUNGC_ROOT")).join("golden/fuzz/corpus/gx-works2/sources.gxw");
+    if std::env::var_os("RUNGC_WRITE_SEEDS").is_some() {
+        std::fs::write(&path, project(&labelled())).unwrap();
+    }
+    // The file itself holds times.
+    let seed = read_bytes("press.gxw", &std::fs::read(&path).unwrap()).unwrap();
+    assert_eq!(
+        *seed.sources.unwrap(),
+        sources(&labelled()),
+        "set RUNGC_WRITE_SEEDS to write it"
+    );
+}
+
 #[test]
 fn all_parts_of_a_labelled_project_are_read() {
     let sources = sources(&labelled());

@@ -118,7 +118,7 @@ fn an_error_in_an_operand_is_reported_once() {
         "CJ P9999",
         "OUT D99999 K5",
         "OUT P5 K5",
-        "BMOV D0 D10 K99999",
+        "BMOVP D0 D10 K99999",
         "MC C300 M0\nLD X1\nOUT Y1\nMCR N0",
     ];
     let programs = rungs.map(|rung| format!("LD X0\n{rung}\nEND\n"));

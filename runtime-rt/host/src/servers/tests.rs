@@ -261,7 +261,7 @@ fn an_incomplete_request_ends_its_connection() {
         let mut stream = connect(address);
         stream.write_all(&READ_D100[..5]).unwrap();
         assert_eq!(stream.read(&mut [0]).unwrap(), 0);
-        // A silent connection without one goes on.
+        // A silent connection without one stays open.
         let mut stream = connect(address);
         thread::sleep(Duration::from_millis(200));
         stream.write_all(&READ_D100).unwrap();

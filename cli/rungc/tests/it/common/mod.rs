@@ -5,6 +5,7 @@
 )]
 
 pub mod chromium;
+pub mod clients;
 #[cfg(unix)]
 pub mod hosts;
 pub mod mosquitto;
