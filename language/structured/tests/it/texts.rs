@@ -191,7 +191,7 @@ fn what_is_not_compiled_has_a_reason() {
     all += &shown(&parts(
         "i := One;\nOne := 5;\nOne := x;\nx[c] := 1;\nx[10] := 1;\nOne.Sped := 1;\nx := x;\nSET(c, f[i]);\n\
          MOV(TRUE, x[i], x[j]);\nFOR x[i] := 0 TO 3 DO END_FOR;\ni := MAX(i);\ni := MAX(i, c);\ni := SHL(i, j);\n\
-         i := LIMT(1, 2, i);\ni.x := 1;\nOUT_T(c, TC0, T#5s);\n",
+         i := LIMITS(1, 2, i);\ni.x := 1;\nOUT_T(c, TC0, T#5s);\n",
     ));
     all += &shown(
         "FUNCTION F : INT\nVAR_INPUT\n    n : INT;\nEND_VAR\nF := G(n);\nEND_FUNCTION\n\
