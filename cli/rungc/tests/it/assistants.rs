@@ -1,6 +1,8 @@
 //! `rungc mcp` under the official clients, `rungc guide`, and what `rungc init` writes for assistants.
 
-use crate::common::clients::{node, python, succeeds};
+#[cfg(unix)]
+use crate::common::clients::python;
+use crate::common::clients::{node, succeeds};
 use crate::common::{code, folder, rungc, text};
 use std::fs;
 use std::io::Write;
