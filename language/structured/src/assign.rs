@@ -85,14 +85,7 @@ impl Compiler<'_> {
 
     /// Drives a coil.
     pub(crate) fn drive(&mut self, cond: &Cond, coil: Operand) {
-        match cond {
-            Cond::Contact {
-                operand,
-                is_closed: false,
-                ..
-            } if operand.kind == crate::emit::ON => self.power(),
-            cond => self.load(cond),
-        }
+        self.enable(cond);
         self.push("OUT", [coil]);
     }
 

@@ -193,8 +193,8 @@ impl Compiler<'_> {
         matches!(self.place(expr), Ok(Some(place)) if place.is_variable())
     }
 
-    /// Begins the rung of EN.
-    fn enable(&mut self, cond: &Cond) {
+    /// Begins a rung with a condition, such as that of EN.
+    pub(crate) fn enable(&mut self, cond: &Cond) {
         match cond {
             Cond::Contact {
                 operand,
