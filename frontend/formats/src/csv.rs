@@ -246,6 +246,12 @@ impl Reader {
         }
         if !mnemonic.is_empty() || !operand.trim().is_empty() {
             self.instruction_row(step, mnemonic, operand);
+        } else if !step.is_empty()
+            && il::number(step).is_none()
+            && statements.clone().next().is_none()
+            && clean(note).is_none()
+        {
+            self.stray(step);
         }
         if !mnemonic.is_empty() {
             self.row = 0;
@@ -284,6 +290,18 @@ impl Reader {
             }
             Current::Label => self.misplaced(operand.trim(), "a label has no operands"),
         }
+    }
+
+    /// Reports a row that holds nothing but a text in the column of steps.
+    fn stray(&mut self, text: &str) {
+        let span = self.listing.word(text);
+        self.diagnostics.push(
+            codes::BAD_ROW
+                .at(span, "this row has neither an instruction nor a statement")
+                .label("the only text is in the column of steps")
+                .help("separate its cells as in the other rows, or delete the row"),
+        );
+        self.unread();
     }
 
     fn misplaced(&mut self, operand: &str, why: &'static str) {

@@ -577,3 +577,26 @@ fn autoshop_keeps_the_comments_of_what_it_leaves_out() {
     let comments: String = comments.map(|(_, comment)| comment).collect();
     assert_eq!(comments, "abcdefghijklm", "{written}");
 }
+
+/// A row whose cells are not separated as in the others would be an instruction less.
+#[test]
+fn no_row_is_passed_over() {
+    let rows = |stray: &str| {
+        let head = "Step No.\tLine Statement\tInstruction\tI/O(Device)";
+        format!("{head}\n0\t\tLD\tX000\n1\t\tOUT\tY000\n{stray}\n2\t\tEND\n")
+    };
+    for stray in ["2,,INC,D0", "LD X001", "foo\t\t\t\t", "-"] {
+        let read = read_bytes("MAIN.csv", rows(stray).as_bytes()).unwrap();
+        let messages: Vec<_> = read.diagnostics.iter().map(|d| &*d.message).collect();
+        assert_eq!(
+            messages,
+            ["this row has neither an instruction nor a statement"],
+            "{stray}"
+        );
+    }
+    for blank in ["", "\t\t\t", "2", "\tA statement"] {
+        let read = read_bytes("MAIN.csv", rows(blank).as_bytes()).unwrap();
+        assert!(read.diagnostics.is_empty(), "{blank}");
+        assert_eq!(texts(&read.program).len(), 3, "{blank}");
+    }
+}
