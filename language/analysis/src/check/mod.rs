@@ -146,7 +146,7 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
             overlaps.note(code, i, &access);
             inert.note(code, i, &access);
             doubtful.note(code, &access);
-            undefined.note(code, &access);
+            undefined.note(code, i, &access);
             reserved.note(code, i, &access);
             idle_counters.note(code, i, &access);
         }

@@ -1,15 +1,23 @@
 //! Special devices that a program reads or writes and to which the model gives no meaning.
 
 use super::Code;
+use super::overlaps::clears;
 use crate::accesses::Access;
 use rungc_models::runs::is_special;
 use rungc_models::{Model, ModelId};
-use rungc_syntax::{Device, Diagnostics, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// A longer run of devices is cleared or copied as a whole; it does not mean one of them.
 const MAX_RUN: u32 = 32;
+
+/// Mode of conversions on PLCs before FX2N. GX Works2 clears it on all models, where structured text and blocks make a
+/// REAL of an integer.
+const CONVERSION: Device = Device {
+    class: DeviceClass::M,
+    number: 8023,
+};
 
 /// Special devices without a meaning that a program names, each with its first use.
 #[derive(Default)]
@@ -29,7 +37,10 @@ struct Use {
 
 impl Undefined {
     /// Takes an access.
-    pub(super) fn note(&mut self, code: &Code, access: &Access) {
+    pub(super) fn note(&mut self, code: &Code, i: usize, access: &Access) {
+        if access.first == CONVERSION && clears(code, i) {
+            return;
+        }
         let Some(count) = access.least.filter(|&count| count <= MAX_RUN) else {
             return;
         };

@@ -130,3 +130,20 @@ fn the_second_word_of_a_value_is_reported_as_such() {
     );
     assert_eq!(found("LD X0\nDMOV K1 D8146\nMOV K1 D8148\nEND\n"), "");
 }
+
+/// What GX Works2 writes before it converts an integer to a REAL.
+#[test]
+fn clearing_the_mode_of_conversions_is_usual() {
+    for model in ModelId::ALL.map(Model::get) {
+        let warned = |text| {
+            let program = rungc_frontend::read_text("p.il", text).program;
+            let found = check(&resolve(&program, model).0);
+            found
+                .iter()
+                .any(|d| d.code == codes::UNDEFINED_SPECIAL.id && d.message.contains("M8023"))
+        };
+        assert!(!warned("LD M8000\nRST M8023\nEND\n"), "{}", model.name);
+        assert!(warned("LD X0\nSET M8023\nEND\n"), "{}", model.name);
+        assert!(warned("LD M8023\nOUT Y0\nEND\n"), "{}", model.name);
+    }
+}
