@@ -3,6 +3,7 @@
 use rungc_project::device;
 use rungc_sim::Target;
 use rungc_sim::names::Comments;
+use rungc_sim::record::decimal;
 use rungc_syntax::{Device, DeviceClass, Program};
 
 /// The greatest signal of a channel, in its unit.
@@ -25,7 +26,10 @@ pub fn target(name: &str) -> Result<Target, String> {
     if device::range(&name.trim().to_uppercase()).is_some_and(|(_, first, last)| first < last) {
         return Err(format!("`{name}`: name one device"));
     }
-    match Target::parse(&upper)? {
+    // As its author wrote it.
+    let written =
+        |wrong: String| wrong.replacen(&format!("`{upper}`"), &format!("`{}`", name.trim()), 1);
+    match Target::parse(&upper).map_err(written)? {
         Target::Bit(class @ (DeviceClass::T | DeviceClass::C), n) => Ok(Target::Current(class, n)),
         target => Ok(target),
     }
@@ -253,7 +257,10 @@ pub fn fits(target: Target, value: f64) -> Result<(), String> {
     };
     match fits {
         true => Ok(()),
-        false => Err(format!("`{value}` does not fit `{target}`, which {holds}")),
+        false => {
+            let value = decimal(value);
+            Err(format!("`{value}` does not fit `{target}`, which {holds}"))
+        }
     }
 }
 

@@ -36,6 +36,7 @@ pub use trace::Trace;
 
 use crate::plant::Description;
 use crate::problem::{self, LoadError};
+use crate::record::decimal;
 use crate::target::Target;
 use crate::wire::Signal;
 use rungc_models::{ModelId, Variant};
@@ -237,7 +238,7 @@ impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Value::Int(v) => v.fmt(f),
-            Value::Float(v) => v.fmt(f),
+            Value::Float(v) => f.pad(&decimal(*v)),
             Value::Text(v) => write!(f, "{v:?}"),
         }
     }

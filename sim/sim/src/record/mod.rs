@@ -5,5 +5,5 @@ pub mod plot;
 mod reading;
 mod vcd;
 
-pub use reading::{Reading, Seen, TEXT_LENGTH, Values, hertz};
+pub use reading::{Reading, Seen, TEXT_LENGTH, Values, decimal, hertz};
 pub use vcd::{Signal, Vcd};

@@ -160,8 +160,45 @@ impl fmt::Display for Reading {
             Reading::Bit(on) => u8::from(*on).fmt(f),
             Reading::Integer(value, _) => value.fmt(f),
             // The device holds a single-precision value, which is shown with no more digits than it has.
-            Reading::Float(value) => (*value as f32).fmt(f),
+            Reading::Float(value) => f.pad(&decimal(f64::from(*value as f32))),
             Reading::Text(text) => write!(f, "{text:?}"),
+        }
+    }
+}
+
+/// A number as people write it: the digits of single precision where these are all it has, and a power of ten where it
+/// would have many zeros: `0.25`, `1.5e-20`.
+pub fn decimal(value: f64) -> String {
+    let single = value as f32;
+    let is_plain = value == 0.0 || !value.is_finite() || (1e-5..1e10).contains(&value.abs());
+    match (f64::from(single) == value, is_plain) {
+        (true, true) => single.to_string(),
+        (true, false) => format!("{single:e}"),
+        (false, true) => value.to_string(),
+        (false, false) => format!("{value:e}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::decimal;
+
+    #[test]
+    fn numbers_have_the_digits_that_they_need() {
+        for (value, written) in [
+            (0.0, "0"),
+            (f64::from(0.1_f32), "0.1"),
+            (0.1, "0.1"),
+            (12.5, "12.5"),
+            (-0.00025, "-0.00025"),
+            (f64::from(-2.5e-7_f32), "-2.5e-7"),
+            (f64::from(1e-45_f32), "1e-45"),
+            (9_999_999_999.0, "9999999999"),
+            (f64::from(3.4e38_f32), "3.4e38"),
+            (1e39, "1e39"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(decimal(value), written);
         }
     }
 }
