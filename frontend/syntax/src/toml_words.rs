@@ -24,11 +24,43 @@ pub fn token(text: &str, at: usize) -> Span {
     Span::new(at as u32, (at + length) as u32)
 }
 
+/// Message of the TOML reader about a place of the text, as [`message`] says it, with what the place shows.
+pub fn message_at(text: &str, at: usize, of_reader: &str) -> (String, Option<String>) {
+    let token = token(text, at);
+    let token = text
+        .get(token.start as usize..token.end as usize)
+        .unwrap_or_default();
+    let (said, help) = message(of_reader);
+    let inner = token.strip_prefix("[[").and_then(|t| t.strip_suffix("]]"));
+    if is_moment(token) {
+        (MOMENT.to_string(), None)
+    } else if let (true, Some((outer, _))) = (said == LIST, inner.and_then(|t| t.rsplit_once('.'))) {
+        (format!("`{token}` needs `[[{outer}]]` above it"), None)
+    } else {
+        (said, help)
+    }
+}
+
+/// Returns true for a date or a time that is not in quotes.
+fn is_moment(token: &str) -> bool {
+    let separator = |at: usize| token.as_bytes().get(at).copied();
+    let is_of = |c: char| c.is_ascii_digit() || "-:.TtZz+".contains(c);
+    let is_marked = separator(4) == Some(b'-') && separator(7) == Some(b'-')
+        || separator(2) == Some(b':') && separator(5) == Some(b':');
+    is_marked && token.chars().all(is_of)
+}
+
+/// Message about a date or a time that is not in quotes.
+const MOMENT: &str = "write a date or a time in quotes";
+
+/// Message about a table in the place of a list of tables.
+const LIST: &str = "write tables of this name in double brackets";
+
 /// Message of the TOML reader, in the words of TOML rather than of Rust, and a help: for an unknown name the one that
 /// is meant, or all that are known.
-pub fn message(message: &str) -> (String, Option<String>) {
+fn message(message: &str) -> (String, Option<String>) {
     if message.contains("$__toml_private") {
-        return ("write a date or a time in quotes".to_string(), None);
+        return (MOMENT.to_string(), None);
     }
     if let Some(unknown) = unknown(message) {
         return unknown;
@@ -45,10 +77,7 @@ pub fn message(message: &str) -> (String, Option<String>) {
             "expected i32",
             "expected a whole number from -2147483648 to 2147483647",
         ),
-        (
-            "invalid type: map, expected a sequence",
-            "write tables of this name in double brackets",
-        ),
+        ("invalid type: map, expected a sequence", LIST),
         ("missing field `", "missing key `"),
         ("invalid type: map", "invalid type: table"),
         ("expected a map", "expected a table: `{ NAME = VALUE }`"),
@@ -90,13 +119,41 @@ fn unknown(message: &str) -> Option<(String, Option<String>)> {
 
 #[cfg(test)]
 mod tests {
-    use super::{message, token};
+    use super::{message, message_at, token};
 
     #[test]
     fn whole_numbers_have_their_range() {
         let of_serde = "invalid value: integer `-5`, expected u32";
         let said = "invalid value: integer `-5`, expected a whole number from 0 to 4294967295";
         assert_eq!(message(of_serde), (said.to_string(), None));
+    }
+
+    #[test]
+    fn what_stands_at_the_place_decides() {
+        let text = "clock = 2026-01-01T00:00:00\nat=07:30:00\nset = 2026\n[[case.step]]\n[case]\n";
+        let list = "invalid type: map, expected a sequence";
+        for (at, of_serde, said) in [
+            (
+                "2026-",
+                "invalid type: map, expected a string",
+                "write a date or a time in quotes",
+            ),
+            (
+                "07:",
+                "invalid type: map, expected a string",
+                "write a date or a time in quotes",
+            ),
+            (
+                "2026\n",
+                "invalid type: map, expected a string",
+                "invalid type: table, expected a string",
+            ),
+            ("[[", list, "`[[case.step]]` needs `[[case]]` above it"),
+            ("[case]", list, "write tables of this name in double brackets"),
+        ] {
+            let at = text.find(at).unwrap();
+            assert_eq!(message_at(text, at, of_serde).0, said);
+        }
     }
 
     #[test]

@@ -53,6 +53,8 @@ pub(super) struct Reader<'t> {
     pub(super) scenarios_known: usize,
     /// Values of names in the case being read, if it is one of several.
     row: Option<Row>,
+    /// Those names that a case of its rows has asked for.
+    named_in_rows: BTreeSet<String>,
 }
 
 /// Reads the text of a test file.
@@ -68,6 +70,7 @@ pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
         scenarios: Vec::new(),
         scenarios_known: 0,
         row: None,
+        named_in_rows: BTreeSet::new(),
     };
     let file = reader.file(raw);
     if reader.problems.is_empty() {
@@ -122,6 +125,7 @@ impl Reader<'_> {
         });
         let mut cases: Vec<Case> = Vec::new();
         for case in raw.case {
+            let rows = case.get_ref().rows.clone();
             for (row, case) in self.rows(case) {
                 self.row = row;
                 let name = case.get_ref().name.clone();
@@ -130,8 +134,14 @@ impl Reader<'_> {
                     let message = format!("the case `{}` is defined twice in this file", case.name);
                     self.report(name.span().start, message);
                 }
-                if case.name.contains(text::acts) {
-                    let message = "the name of a case is one line, without control characters";
+                let wrong = match case.name.trim() {
+                    "" => Some("a case has a name"),
+                    _ if case.name.contains(text::acts) => {
+                        Some("the name of a case is one line, without control characters")
+                    }
+                    _ => None,
+                };
+                if let Some(message) = wrong {
                     self.report(name.span().start, message.to_string());
                 }
                 if case.machine.is_none() {
@@ -144,6 +154,7 @@ impl Reader<'_> {
                 cases.push(case);
             }
             self.row = None;
+            self.unused(&rows);
         }
         TestFile {
             name: self.source.name.clone(),
@@ -195,6 +206,19 @@ impl Reader<'_> {
             cases.push((Some(row), Spanned::new(span.clone(), case)));
         }
         cases
+    }
+
+    /// Reports values in the rows of a case that it does not use.
+    fn unused(&mut self, rows: &[RawRow]) {
+        let used = std::mem::take(&mut self.named_in_rows);
+        let mut found = BTreeSet::new();
+        for name in rows.iter().flat_map(|row| row.get_ref().keys()) {
+            let (at, name) = (name.span().start, name.get_ref());
+            if name != "name" && !used.contains(name) && found.insert(name) {
+                let message = format!("no value of this case is `\"${name}\"`, which its rows give");
+                self.report(at, message);
+            }
+        }
     }
 
     /// The program of the project that the test file belongs to.
@@ -466,7 +490,7 @@ impl Reader<'_> {
         let at = value.span().start;
         let given = self.of_row(value.get_ref(), at);
         let (value, tolerance) = match &given {
-            Scalar::Near(near) => (middle(target, *near), Some(near.tolerance.abs())),
+            Scalar::Near(near) => (middle(target, *near), Some(near.tolerance)),
             other => (Value::of(target, other), None),
         };
         match value {
@@ -493,6 +517,7 @@ impl Reader<'_> {
             return value.clone();
         };
         if let Some(value) = row.get(name) {
+            self.named_in_rows.insert(name.to_owned());
             return value.clone();
         }
         self.report(at, format!("the row has no `{name}`"));

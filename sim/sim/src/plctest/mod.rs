@@ -523,4 +523,30 @@ expect = { M8000 = 1, D8010 = 100 }
         let text = "model = \"h2u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\nprogram = \"END\"\n[[case.step]]\nscan = 1\n";
         insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: there is no key `scan`; did you mean `scans`?");
     }
+    /// A value of a row that the case does not use would be a check that is not made.
+    #[test]
+    fn values_that_check_nothing_are_mistakes() {
+        let text = r#"model = "fx3u"
+topic = "t"
+program = "END"
+[[case]]
+name = " "
+[[case.step]]
+expect = { D0 = { value = 5, tolerance = 1 } }
+[[case]]
+name = "a"
+rows = [{ x = 1, Y000 = 1, name = "b" }, { x = 2, Y000 = 0, z = 1 }]
+[[case.step]]
+set = { D0 = "$x" }
+"#;
+        insta::assert_snapshot!(problems_of(text), @r#"
+        t.plctest.toml:5:8: a case has a name
+        t.plctest.toml:10:18: no value of this case is `"$Y000"`, which its rows give
+        t.plctest.toml:10:61: no value of this case is `"$z"`, which its rows give
+        "#);
+        for tolerance in ["-1", "nan"] {
+            let text = text.replace("tolerance = 1", &format!("tolerance = {tolerance}"));
+            assert!(problems_of(&text).contains("`tolerance` is 0 or more"));
+        }
+    }
 }

@@ -358,7 +358,10 @@ impl<'de> Visitor<'de> for ScalarVisitor {
             }
         }
         match (value, tolerance) {
-            (Some(value), Some(tolerance)) => Ok(Scalar::Near(Near { value, tolerance })),
+            (Some(value), Some(tolerance)) if tolerance >= 0.0 => {
+                Ok(Scalar::Near(Near { value, tolerance }))
+            }
+            (Some(_), Some(_)) => Err(A::Error::custom("`tolerance` is 0 or more")),
             (Some(_), None) => {
                 let message = "write a name with a dot in quotes, such as `\"T0.value\"`; or is `tolerance` missing?";
                 Err(A::Error::custom(message))
