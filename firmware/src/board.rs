@@ -373,6 +373,9 @@ pub(crate) const FUNCTIONS: [(&str, &str); 23] = [
     ("wake_in", "void NAME(void *context, uint32_t us)"),
 ];
 
+/// What to do with a program in the place of a description.
+const PROGRAM: &str = "name the board that it is to run on (`rungc boards` lists them)";
+
 /// Reads a description. Sources that it names are looked for beside it.
 pub fn load(path: &Path) -> Result<Board, BoardError> {
     let io = |error| BoardError::Io {
@@ -380,10 +383,15 @@ pub fn load(path: &Path) -> Result<Board, BoardError> {
         error,
     };
     inputs::open(path).map_err(io)?;
-    let text = std::fs::read_to_string(path).map_err(io)?;
+    let other = |why| io(std::io::Error::new(std::io::ErrorKind::InvalidData, why));
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let bytes = std::fs::read(path).map_err(io)?;
+    let text = rungc_frontend::settings_text(&name, bytes, PROGRAM).map_err(other)?;
     let source = Source::new(path.display().to_string(), text);
     let folder = path.parent().unwrap_or(Path::new(""));
-    parse(&source, folder)
+    parse(&source, folder).map_err(|error| {
+        rungc_frontend::not_settings(&name, &source.text, PROGRAM).map_or(error, other)
+    })
 }
 
 /// Files that every image has; the user's sources are written beside them.
@@ -402,7 +410,7 @@ pub fn parse(source: &Source, folder: &Path) -> Result<Board, BoardError> {
     };
     let format: Format = toml::from_str(&source.text).map_err(|error| {
         let at = error.span().map_or(0, |span| span.start);
-        let (message, help) = toml_words::message(error.message());
+        let (message, help) = toml_words::message_at(&source.text, at, error.message());
         reader.wrong_with(at, message, help)
     })?;
     reader.board(format, folder)

@@ -233,6 +233,9 @@ impl Range {
     }
 }
 
+/// What to do with a program in the place of settings.
+const PROGRAM: &str = "its settings are in a file `rungc.toml` (`rungc init`)";
+
 impl Project {
     /// The file that is for a program or a folder: in its own folder, else in the nearest one above.
     pub fn find(path: &Path) -> Option<PathBuf> {
@@ -260,14 +263,12 @@ impl Project {
             let message = format!("it is larger than {} MiB", MAX_SIZE >> 20);
             return Err(io(io::Error::new(io::ErrorKind::InvalidData, message)));
         }
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let why = match error.as_bytes() {
-                [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "it is UTF-16; save it as UTF-8",
-                _ => "it is not UTF-8; save it as UTF-8",
-            };
-            io(io::Error::new(io::ErrorKind::InvalidData, why))
-        })?;
-        Project::parse(path, &text)
+        let other = |why| io(io::Error::new(io::ErrorKind::InvalidData, why));
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let text = rungc_frontend::settings_text(&name, bytes, PROGRAM).map_err(other)?;
+        Project::parse(path, &text).map_err(|error| {
+            rungc_frontend::not_settings(&name, &text, PROGRAM).map_or(error, other)
+        })
     }
 
     /// Reads a file, or what an editor has not saved of it.

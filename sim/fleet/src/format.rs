@@ -133,20 +133,15 @@ impl Fleet {
         };
         inputs::note(path);
         let bytes = std::fs::read(path).map_err(io)?;
-        let is_toml = std::str::from_utf8(&bytes).is_ok_and(rungc_frontend::is_meant_as_toml);
-        if !is_toml && rungc_frontend::is_program(&bytes) {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let why = format!(
-                "this is a program; a fleet is a file with `[plc.NAME]` and `program = \"{name}\"` (`rungc book fleet`)"
-            );
-            return Err(io(std::io::Error::new(
-                std::io::ErrorKind::InvalidData,
-                why,
-            )));
-        }
-        let text = String::from_utf8(bytes);
-        let text = text.map_err(|_| io(std::io::ErrorKind::InvalidData.into()))?;
-        Fleet::parse(path, &text)
+        let other = |why| io(std::io::Error::new(std::io::ErrorKind::InvalidData, why));
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let program = format!(
+            "a fleet is a file with `[plc.NAME]` and `program = \"{name}\"` (`rungc book fleet`)"
+        );
+        let text = rungc_frontend::settings_text(&name, bytes, &program).map_err(other)?;
+        Fleet::parse(path, &text).map_err(|error| {
+            rungc_frontend::not_settings(&name, &text, &program).map_or(error, other)
+        })
     }
 
     /// Reads the text of a file. `path` is what it is called, and where its paths begin.

@@ -1,6 +1,6 @@
 //! Mistakes in TOML files that a user writes, each with its place.
 
-use rungc_frontend::{Recognised, is_meant_as_toml, is_program, recognise};
+use rungc_frontend::{not_settings, settings_text};
 use rungc_syntax::codes::Code;
 use rungc_syntax::{Diagnostics, Source, Span, inputs, toml_words};
 use serde::de::DeserializeOwned;
@@ -116,34 +116,27 @@ pub(crate) fn read(path: &Path) -> Result<Source, LoadError> {
         let what = "its name, or that of its folder, is not UTF-8; rename it";
         return Err(io(Error::new(ErrorKind::InvalidInput, what)));
     }
-    let text = String::from_utf8(std::fs::read(path).map_err(io)?).map_err(|error| {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let what = other_kind(&name, error.as_bytes());
-        let what = what.unwrap_or_else(|| "it is not text in UTF-8".to_owned());
-        io(Error::new(ErrorKind::InvalidData, what))
-    })?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let bytes = std::fs::read(path).map_err(io)?;
+    let text = settings_text(&name, bytes, PROGRAM)
+        .map_err(|what| io(Error::new(ErrorKind::InvalidData, what)))?;
     Ok(Source::new(path.display().to_string(), text))
 }
 
-/// Description of a file that is not TOML, and what to do with it.
-fn other_kind(name: &str, bytes: &[u8]) -> Option<String> {
-    if let Some(Recognised { what, help }) = recognise(name, bytes) {
-        return Some(format!("this is {what}: {help}"));
-    }
-    let help = "check it with `rungc check`; a test file names it: `program = { file = \"…\" }`";
-    is_program(bytes).then(|| format!("this is a program: {help}"))
-}
+/// What to do with a program in the place of a test file.
+const PROGRAM: &str =
+    "check it with `rungc check`; a test file names it: `program = { file = \"…\" }`";
 
 /// Reads the TOML of a file, without looking at what it means.
 pub(crate) fn from_toml<T: DeserializeOwned>(source: &Source) -> Result<T, Vec<Problem>> {
     toml::from_str(&source.text).map_err(|error| {
-        let is_toml = source.text.parse::<toml::Table>().is_ok() || is_meant_as_toml(&source.text);
-        let other = other_kind(&source.name, source.text.as_bytes());
+        let is_toml = source.text.parse::<toml::Table>().is_ok();
+        let other = not_settings(&source.name, &source.text, PROGRAM);
         if let Some(what) = other.filter(|_| !is_toml) {
             return vec![Problem::at(source, 0, what)];
         }
         let at = error.span().map_or(0, |span| span.start);
-        let (message, help) = toml_words::message(error.message());
+        let (message, help) = toml_words::message_at(&source.text, at, error.message());
         vec![Problem {
             help,
             ..Problem::at(source, at, message)

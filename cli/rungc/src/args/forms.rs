@@ -288,10 +288,8 @@ pub struct NamesFile {
 /// Reads a table of variables and their devices.
 pub fn names(path: &str) -> Result<NamesFile, String> {
     rungc_syntax::inputs::note(path.as_ref());
-    let table = fs::read_to_string(path).map_err(|error| error.to_string())?;
-    let names = Names::parse(&table).map_err(|row| {
-        format!("`{row}` is not a row of a name and a device, such as `Start,X000`")
-    })?;
+    let table = fs::read(path).map_err(|error| error.to_string())?;
+    let names = Names::read(&table)?;
     let path = path.to_owned();
     Ok(NamesFile { path, names })
 }

@@ -406,7 +406,7 @@ fn programs_are_not_taken_for_fleets() {
     assert_eq!(output.status.code(), Some(2));
     let messages = common::text(&output.stderr);
     assert!(
-        messages.contains("this is a program; a fleet is a file with"),
+        messages.contains("this is a program: a fleet is a file with"),
         "{messages}"
     );
 }

@@ -66,6 +66,7 @@ mod run;
 mod serve;
 mod servers;
 mod sessions;
+mod settings_files;
 mod several;
 mod sources;
 mod threads;

@@ -2,6 +2,7 @@
 
 use super::{children, text};
 use crate::il;
+use crate::table::{TableRow, read_table};
 use roxmltree::Node;
 use rungc_syntax::{Device, DeviceClass, DeviceRun, Diagnostics, OperandKind};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
@@ -18,6 +19,25 @@ pub struct Names {
 }
 
 impl Names {
+    /// Reads a table as [`Names::parse`] does, in any encoding and with any separator of [`read_table`].
+    ///
+    /// # Errors
+    /// Why it is not a table, or the first row that is not of this form.
+    pub fn read(bytes: &[u8]) -> Result<Names, String> {
+        let mut names = Names::default();
+        for TableRow { cells, .. } in read_table(bytes, None).map_err(|error| error.to_string())? {
+            let read = match &*cells {
+                [name, device, ..] => names.row(name, device),
+                _ => None,
+            };
+            read.ok_or_else(|| {
+                let row = cells.join(",");
+                format!("`{row}` is not a row of a name and a device, such as `Start,X000`")
+            })?;
+        }
+        Ok(names)
+    }
+
     /// Reads a table: rows of a name and a device, separated by a comma or a tab. The name `*` gives free devices:
     /// `*,M100-M199`.
     ///
@@ -27,13 +47,14 @@ impl Names {
         let mut names = Names::default();
         let lines = table.trim_start_matches('\u{FEFF}').lines();
         for row in lines.filter(|row| !row.trim().is_empty()) {
-            names.row(row).ok_or_else(|| row.to_owned())?;
+            let fields = row.split_once([',', '\t']);
+            let read = fields.and_then(|(name, device)| names.row(name, device));
+            read.ok_or_else(|| row.to_owned())?;
         }
         Ok(names)
     }
 
-    fn row(&mut self, row: &str) -> Option<()> {
-        let (name, written) = row.split_once([',', '\t'])?;
+    fn row(&mut self, name: &str, written: &str) -> Option<()> {
         let plain = |field: &str| field.trim().trim_matches('"').trim().to_uppercase();
         let (name, written) = (plain(name), plain(written));
         if name == "*" {
@@ -595,6 +616,28 @@ mod tests {
             None,
         ];
         assert_eq!(durations.map(milliseconds), expected);
+    }
+
+    /// As Excel saves them.
+    #[test]
+    fn tables_are_in_any_encoding() {
+        for text in [
+            "启动按钮,X000\r\n*,M100-M199\r\n",
+            "启动按钮;X000\n*;M100-M199\n",
+        ] {
+            let (gbk, ..) = encoding_rs::GBK.encode(text);
+            let utf16: Vec<u8> = ["\u{FEFF}", text].concat()
+                .encode_utf16()
+                .flat_map(u16::to_le_bytes)
+                .collect();
+            for bytes in [text.as_bytes(), &gbk, &utf16] {
+                let names = Names::read(bytes).unwrap();
+                assert_eq!(names.devices["启动按钮"].to_string(), "X000");
+                assert_eq!(names.free, [(DeviceClass::M, 100, 199)]);
+            }
+        }
+        let wrong = Names::read(b"A,X0\nStop\n").unwrap_err();
+        assert!(wrong.starts_with("`Stop` is not a row of a name"), "{wrong}");
     }
 
     #[test]
