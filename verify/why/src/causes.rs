@@ -239,8 +239,7 @@ impl<'a> Search<'a> {
                 && fact.kind == FactKind::Written
             {
                 let link = self.link(*id);
-                let name = self.causes[at].device.clone();
-                let note = format!("{name} may be {}.", link.now);
+                let note = format!("{}.", link.now);
                 if !self.causes[at].notes.contains(&note) {
                     self.causes[at].notes.push(note);
                 }

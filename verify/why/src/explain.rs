@@ -252,14 +252,16 @@ impl<'p> Explainer<'p> {
             ));
         }
         let is_bit = !matches!(device.class, DeviceClass::T | DeviceClass::C);
-        match (of("set").is_empty(), of("reset").is_empty()) {
-            (false, true) if coils.is_empty() && is_bit && !self.is_step(device) => {
-                notes.push(format!("{name} is set, and no RST resets it."));
-            }
-            (true, false) if coils.is_empty() && is_bit => {
-                notes.push(format!("{name} is reset, and nothing sets it."));
-            }
-            _ => {}
+        let resets = of("reset").len();
+        if !of("set").is_empty() && resets == 0 && coils.is_empty() && is_bit && !self.is_step(device) {
+            notes.push(format!("{name} is set, and no RST resets it."));
+        } else if resets > 0 && resets == writers.len() && is_bit {
+            notes.push(format!("{name} is reset, and nothing sets it."));
+        }
+        if self.sends_pulses(device) {
+            notes.push(format!(
+                "{name} sends pulses: whether it is on or off between two of them is not followed."
+            ));
         }
         let latched = self.module.is_latched(device.class, device.number);
         if latched && !is_special(device.class, device.number) {
@@ -298,14 +300,23 @@ impl<'p> Explainer<'p> {
         writers: &[(usize, Writer)],
     ) -> (Vec<Cause>, Vec<Link>) {
         let mut search = Search::new(self, now);
-        if is_bit(device) {
+        // Pulses come between scans: what can be followed is the drive of the instructions that send them.
+        let by_pulses = self.sends_pulses(device) && !now.trace.wrote.contains_key(&device);
+        if is_bit(device) && !by_pulses {
             search.device(device, &mut Vec::new(), true);
         } else {
             for (instr, _) in writers {
                 search.drive(device, *instr);
             }
         }
-        search.found()
+        let (causes, because) = search.found();
+        let because = if by_pulses { Vec::new() } else { because };
+        (causes, because)
+    }
+
+    /// Returns true for an output through which instructions send pulses.
+    pub(crate) fn sends_pulses(&self, device: Device) -> bool {
+        device.class == DeviceClass::Y && self.module.pulse_outputs.contains(&device.number)
     }
 }
 

@@ -61,7 +61,7 @@ fn after(list: &str, settings: &[&str], name: &str) -> String {
 }
 
 /// Programs, settings with a scan after each, and the device that is explained.
-const CASES: [(&str, &str, &[&str], &str); 14] = [
+const CASES: [(&str, &str, &[&str], &str); 16] = [
     (
         "a contact that is open",
         ";! X000 = start\n;! X001 = stop\nLD X000\nOR M0\nANI X001\nOUT M0\nLD M0\nAND X002\nOUT Y000\nEND\n",
@@ -145,6 +145,18 @@ const CASES: [(&str, &str, &[&str], &str); 14] = [
         "LD X000\nMOV K5 D0\nLD> D0 K3\nOUT Y000\nEND\n",
         &[""],
         "D0",
+    ),
+    (
+        "a register that is computed and reset",
+        "LD X000\nADD D1 D2 D0\nLD X001\nRST D0\nEND\n",
+        &[""],
+        "D0",
+    ),
+    (
+        "an output of pulses",
+        "LD X000\nPLSY K100 K0 Y000\nEND\n",
+        &["X000=1"],
+        "Y000",
     ),
 ];
 

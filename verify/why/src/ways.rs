@@ -151,10 +151,9 @@ impl Explainer<'_> {
         let blamed = self.roots(session, options.scan_ms, device).sets.concat();
         let cone = self.cone(session, (device, &blamed), options.is_outside);
         let wanted = !is_active(session.machine(), device);
-        let outputs = &self.module().pulse_outputs;
         let mut how = How {
             on: wanted,
-            pulses: device.class == DeviceClass::Y && outputs.contains(&device.number),
+            pulses: self.sends_pulses(device),
             found: false,
             not_searched: match () {
                 () if !is_bit(device) => Some("a way is searched for bits alone"),

@@ -233,8 +233,9 @@ impl Words<'_> {
                 let through = self
                     .index(instr)
                     .map(|index| format!(" through index {index}"));
+                let written = fact.device.map_or("it".to_owned(), |device| self.named(device));
                 let now = format!(
-                    "written by {}{}: cannot be followed",
+                    "{}{} writes {written}, which cannot be followed",
                     self.at(instr),
                     through.unwrap_or_default()
                 );
