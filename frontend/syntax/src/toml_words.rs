@@ -34,7 +34,8 @@ pub fn message_at(text: &str, at: usize, of_reader: &str) -> (String, Option<Str
     let inner = token.strip_prefix("[[").and_then(|t| t.strip_suffix("]]"));
     if is_moment(token) {
         (MOMENT.to_string(), None)
-    } else if let (true, Some((outer, _))) = (said == LIST, inner.and_then(|t| t.rsplit_once('.'))) {
+    } else if let (true, Some((outer, _))) = (said == LIST, inner.and_then(|t| t.rsplit_once('.')))
+    {
         (format!("`{token}` needs `[[{outer}]]` above it"), None)
     } else {
         (said, help)
@@ -149,7 +150,11 @@ mod tests {
                 "invalid type: table, expected a string",
             ),
             ("[[", list, "`[[case.step]]` needs `[[case]]` above it"),
-            ("[case]", list, "write tables of this name in double brackets"),
+            (
+                "[case]",
+                list,
+                "write tables of this name in double brackets",
+            ),
         ] {
             let at = text.find(at).unwrap();
             assert_eq!(message_at(text, at, of_serde).0, said);

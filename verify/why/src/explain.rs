@@ -253,7 +253,12 @@ impl<'p> Explainer<'p> {
         }
         let is_bit = !matches!(device.class, DeviceClass::T | DeviceClass::C);
         let resets = of("reset").len();
-        if !of("set").is_empty() && resets == 0 && coils.is_empty() && is_bit && !self.is_step(device) {
+        if !of("set").is_empty()
+            && resets == 0
+            && coils.is_empty()
+            && is_bit
+            && !self.is_step(device)
+        {
             notes.push(format!("{name} is set, and no RST resets it."));
         } else if resets > 0 && resets == writers.len() && is_bit {
             notes.push(format!("{name} is reset, and nothing sets it."));

@@ -233,7 +233,9 @@ impl Words<'_> {
                 let through = self
                     .index(instr)
                     .map(|index| format!(" through index {index}"));
-                let written = fact.device.map_or("it".to_owned(), |device| self.named(device));
+                let written = fact
+                    .device
+                    .map_or("it".to_owned(), |device| self.named(device));
                 let now = format!(
                     "{}{} writes {written}, which cannot be followed",
                     self.at(instr),

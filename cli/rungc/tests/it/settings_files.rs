@@ -28,7 +28,10 @@ fn encodings_and_other_files_are_named() {
         for (bytes, why) in [
             (&gbk[..], "it is not UTF-8; save it as UTF-8"),
             (&utf16[..], "it is UTF-16; save it as UTF-8"),
-            (&b"\x7FELF\x01\x02\xFF"[..], "this is an executable or an image (ELF): "),
+            (
+                &b"\x7FELF\x01\x02\xFF"[..],
+                "this is an executable or an image (ELF): ",
+            ),
             (&b"<html>\n<body>\n"[..], "this is a page (HTML): "),
             (MOTOR.as_bytes(), "this is a program: "),
         ] {

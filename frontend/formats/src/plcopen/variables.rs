@@ -626,7 +626,8 @@ mod tests {
             "启动按钮;X000\n*;M100-M199\n",
         ] {
             let (gbk, ..) = encoding_rs::GBK.encode(text);
-            let utf16: Vec<u8> = ["\u{FEFF}", text].concat()
+            let utf16: Vec<u8> = ["\u{FEFF}", text]
+                .concat()
                 .encode_utf16()
                 .flat_map(u16::to_le_bytes)
                 .collect();
@@ -637,7 +638,10 @@ mod tests {
             }
         }
         let wrong = Names::read(b"A,X0\nStop\n").unwrap_err();
-        assert!(wrong.starts_with("`Stop` is not a row of a name"), "{wrong}");
+        assert!(
+            wrong.starts_with("`Stop` is not a row of a name"),
+            "{wrong}"
+        );
     }
 
     #[test]

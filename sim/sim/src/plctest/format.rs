@@ -215,7 +215,8 @@ impl Reader<'_> {
         for name in rows.iter().flat_map(|row| row.get_ref().keys()) {
             let (at, name) = (name.span().start, name.get_ref());
             if name != "name" && !used.contains(name) && found.insert(name) {
-                let message = format!("no value of this case is `\"${name}\"`, which its rows give");
+                let message =
+                    format!("no value of this case is `\"${name}\"`, which its rows give");
                 self.report(at, message);
             }
         }
