@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use crate::target::{self, Target};
 use pins::{InputFormat, Output, Wiring};
 use rungc_syntax::codes::BOARD_FILE;
-use rungc_syntax::{DeviceClass, Diagnostic, Source, inputs, toml_words};
+use rungc_syntax::{DeviceClass, Diagnostic, Source, toml_words};
 use serde::Deserialize;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -372,27 +372,6 @@ pub(crate) const FUNCTIONS: [(&str, &str); 23] = [
     ),
     ("wake_in", "void NAME(void *context, uint32_t us)"),
 ];
-
-/// What to do with a program in the place of a description.
-const PROGRAM: &str = "name the board that it is to run on (`rungc boards` lists them)";
-
-/// Reads a description. Sources that it names are looked for beside it.
-pub fn load(path: &Path) -> Result<Board, BoardError> {
-    let io = |error| BoardError::Io {
-        path: path.to_path_buf(),
-        error,
-    };
-    inputs::open(path).map_err(io)?;
-    let other = |why| io(std::io::Error::new(std::io::ErrorKind::InvalidData, why));
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let bytes = std::fs::read(path).map_err(io)?;
-    let text = rungc_frontend::settings_text(&name, bytes, PROGRAM).map_err(other)?;
-    let source = Source::new(path.display().to_string(), text);
-    let folder = path.parent().unwrap_or(Path::new(""));
-    parse(&source, folder).map_err(|error| {
-        rungc_frontend::not_settings(&name, &source.text, PROGRAM).map_or(error, other)
-    })
-}
 
 /// Files that every image has; the user's sources are written beside them.
 const IMAGE_FILES: [&str; 2] = ["main.c", "startup.c"];

@@ -1,7 +1,7 @@
 //! Descriptions of boards that come with rungc.
 
 use crate::board::{self, Board, BoardError};
-use rungc_syntax::Source;
+use rungc_syntax::{Source, inputs};
 use std::path::Path;
 
 /// The description of a board, by a name that stands for its file.
@@ -58,6 +58,25 @@ pub fn named_or_described(name: &Path) -> Result<Board, BoardError> {
         None if name.extension().is_none() && !name.exists() => Err(BoardError::Unknown {
             name: name.display().to_string(),
         }),
-        None => board::load(name),
+        None => load(name),
     }
+}
+
+/// What to do with a program in the place of a description.
+const PROGRAM: &str = "name the board that it is to run on (`rungc boards` lists them)";
+
+/// Reads a description. Sources that it names are looked for beside it.
+fn load(path: &Path) -> Result<Board, BoardError> {
+    let io = |error| BoardError::Io {
+        path: path.to_path_buf(),
+        error,
+    };
+    inputs::open(path).map_err(io)?;
+    let text = rungc_frontend::settings_file(path, PROGRAM).map_err(io)?;
+    let source = Source::new(path.display().to_string(), text);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let other = |why| io(std::io::Error::other(why));
+    board::parse(&source, folder).map_err(|error| {
+        rungc_frontend::not_settings(path, &source.text, PROGRAM).map_or(error, other)
+    })
 }

@@ -264,10 +264,9 @@ impl Project {
             return Err(io(io::Error::new(io::ErrorKind::InvalidData, message)));
         }
         let other = |why| io(io::Error::new(io::ErrorKind::InvalidData, why));
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let text = rungc_frontend::settings_text(&name, bytes, PROGRAM).map_err(other)?;
+        let text = rungc_frontend::settings_text(path, bytes, PROGRAM).map_err(other)?;
         Project::parse(path, &text).map_err(|error| {
-            rungc_frontend::not_settings(&name, &text, PROGRAM).map_or(error, other)
+            rungc_frontend::not_settings(path, &text, PROGRAM).map_or(error, other)
         })
     }
 

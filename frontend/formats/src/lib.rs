@@ -40,7 +40,7 @@ pub use learned::{LearnError, LearnedCodes, Reading, Unproven};
 pub use plcopen::{MOST_CONTACTS, Names, PLCOPEN_CPU, iec_timer_unit, read as read_plcopen};
 pub use recognise::{Recognised, is_meant_as_toml, is_program, recognise};
 pub use search::{is_project, programs, walk_error};
-pub use settings::{not_settings, settings_text};
+pub use settings::{not_settings, settings_file, settings_text};
 pub use table::{MAX_TABLE, TableError, TableRow, read_table};
 pub use unsaved::Unsaved;
 

@@ -132,15 +132,14 @@ impl Fleet {
             error,
         };
         inputs::note(path);
-        let bytes = std::fs::read(path).map_err(io)?;
-        let other = |why| io(std::io::Error::new(std::io::ErrorKind::InvalidData, why));
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let program = format!(
             "a fleet is a file with `[plc.NAME]` and `program = \"{name}\"` (`rungc book fleet`)"
         );
-        let text = rungc_frontend::settings_text(&name, bytes, &program).map_err(other)?;
+        let text = rungc_frontend::settings_file(path, &program).map_err(io)?;
+        let other = |why| io(std::io::Error::other(why));
         Fleet::parse(path, &text).map_err(|error| {
-            rungc_frontend::not_settings(&name, &text, &program).map_or(error, other)
+            rungc_frontend::not_settings(path, &text, &program).map_or(error, other)
         })
     }
 

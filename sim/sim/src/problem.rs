@@ -1,6 +1,6 @@
 //! Mistakes in TOML files that a user writes, each with its place.
 
-use rungc_frontend::{not_settings, settings_text};
+use rungc_frontend::{not_settings, settings_file};
 use rungc_syntax::codes::Code;
 use rungc_syntax::{Diagnostics, Source, Span, inputs, toml_words};
 use serde::de::DeserializeOwned;
@@ -116,10 +116,7 @@ pub(crate) fn read(path: &Path) -> Result<Source, LoadError> {
         let what = "its name, or that of its folder, is not UTF-8; rename it";
         return Err(io(Error::new(ErrorKind::InvalidInput, what)));
     }
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let bytes = std::fs::read(path).map_err(io)?;
-    let text = settings_text(&name, bytes, PROGRAM)
-        .map_err(|what| io(Error::new(ErrorKind::InvalidData, what)))?;
+    let text = settings_file(path, PROGRAM).map_err(io)?;
     Ok(Source::new(path.display().to_string(), text))
 }
 
@@ -131,7 +128,7 @@ const PROGRAM: &str =
 pub(crate) fn from_toml<T: DeserializeOwned>(source: &Source) -> Result<T, Vec<Problem>> {
     toml::from_str(&source.text).map_err(|error| {
         let is_toml = source.text.parse::<toml::Table>().is_ok();
-        let other = not_settings(&source.name, &source.text, PROGRAM);
+        let other = not_settings(Path::new(&source.name), &source.text, PROGRAM);
         if let Some(what) = other.filter(|_| !is_toml) {
             return vec![Problem::at(source, 0, what)];
         }
