@@ -31,12 +31,15 @@ pub fn message_at(text: &str, at: usize, of_reader: &str) -> (String, Option<Str
         .get(token.start as usize..token.end as usize)
         .unwrap_or_default();
     let (said, help) = message(of_reader);
-    let inner = token.strip_prefix("[[").and_then(|t| t.strip_suffix("]]"));
+    // The reader points at the name of a heading, behind its brackets.
+    let is_heading = text.get(..at).is_some_and(|before| before.ends_with("[["));
     if is_moment(token) {
         (MOMENT.to_string(), None)
-    } else if let (true, Some((outer, _))) = (said == LIST, inner.and_then(|t| t.rsplit_once('.')))
+    } else if let Some((outer, _)) = token
+        .rsplit_once('.')
+        .filter(|_| said == LIST && is_heading)
     {
-        (format!("`{token}` needs `[[{outer}]]` above it"), None)
+        (format!("`[[{token}]]` needs `[[{outer}]]` above it"), None)
     } else {
         (said, help)
     }
@@ -149,7 +152,11 @@ mod tests {
                 "invalid type: map, expected a string",
                 "invalid type: table, expected a string",
             ),
-            ("[[", list, "`[[case.step]]` needs `[[case]]` above it"),
+            (
+                "case.step",
+                list,
+                "`[[case.step]]` needs `[[case]]` above it",
+            ),
             (
                 "[case]",
                 list,

@@ -523,6 +523,14 @@ expect = { M8000 = 1, D8010 = 100 }
         let text = "model = \"h2u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\nprogram = \"END\"\n[[case.step]]\nscan = 1\n";
         insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: there is no key `scan`; did you mean `scans`?");
     }
+    #[test]
+    fn headings_and_dates_are_written_as_toml_asks() {
+        let text = "model = \"h2u\"\ntopic = \"t\"\n[[case.step]]\nscans = 1\n";
+        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:3:3: `[[case.step]]` needs `[[case]]` above it");
+        let text = "model = \"h2u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\nprogram = \"END\"\n[[case.step]]\nclock = 2026-01-02T03:04:05\n";
+        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:9: write a date or a time in quotes");
+    }
+
     /// A value of a row that the case does not use would be a check that is not made.
     #[test]
     fn values_that_check_nothing_are_mistakes() {
