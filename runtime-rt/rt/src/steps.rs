@@ -25,14 +25,14 @@ pub struct Run {
 
 impl Run {
     /// Returns the number of the next block to execute, and whether its state is on; `None` if there is none.
-    #[inline]
+    #[inline(always)]
     pub fn next(&mut self, states: &[bool]) -> Option<(usize, bool)> {
         let number = self.begin_next();
         Some((number, *states.get(number)?))
     }
 
     /// Takes the next block; its number, or 32 if there is none.
-    #[inline]
+    #[inline(always)]
     fn begin_next(&mut self) -> usize {
         let number = self.later.trailing_zeros() as usize;
         self.now = self.later & self.later.wrapping_neg();
@@ -53,7 +53,7 @@ impl Steps {
     }
 
     /// Begins a scan of the blocks with these states, 4 to 32: states that were left go off.
-    #[inline]
+    #[inline(always)]
     pub fn begin(&mut self, states: &mut [bool]) -> Run {
         if self.left != 0 {
             self.drop_left(states);
@@ -65,7 +65,7 @@ impl Steps {
     }
 
     /// The same where a block reads states of later ones: [`Steps::next_in_turn`] switches states off.
-    #[inline]
+    #[inline(always)]
     pub fn begin_in_turn(&mut self, states: &[bool]) -> Run {
         let on = self.states(states);
         let later = on | self.was_on;
@@ -167,10 +167,10 @@ fn bit(number: usize) -> u32 {
 fn seen(states: &[bool]) -> u32 {
     let four = |from: usize| {
         let from = from.min(states.len().saturating_sub(4));
-        let four = states
-            .get(from..)
-            .and_then(|states| states.first_chunk::<4>());
-        four.map_or(0, |four| u32::from_le_bytes(four.map(u8::from)))
+        match states.get(from..).and_then(|states| states.first_chunk()) {
+            Some(&[a, b, c, d]) => u32::from_le_bytes([a.into(), b.into(), c.into(), d.into()]),
+            None => 0,
+        }
     };
     four(0)
         | four(4) << 1

@@ -296,7 +296,6 @@ fn states_that_are_read_go_off_in_turn() {
     for action in [
         "LD S23\nOUT M0",
         "MOV K2S24 D0",
-        "BMOV K4S20 D0 K1",
         "MOV D1 Z0\nLD S0Z0\nOUT M0",
     ] {
         assert!(begins(action), "{action}");
