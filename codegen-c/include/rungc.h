@@ -257,11 +257,28 @@ static inline bool plc_active(const bool *states, size_t count, const bool *memo
 /* Up to 32 blocks of a step ladder whose states are neighbours, a bit for each. A block runs while its state is on, and once more
    when it has gone off. */
 typedef struct plc_steps {
-    uint32_t run;    /* blocks that are still to run in this scan */
-    uint32_t now;    /* the block that runs; 0 outside of them */
+    uint32_t seen;   /* the states, as plc_seen has read them */
+    uint32_t on;     /* the same, a bit for each */
     uint32_t was_on; /* blocks whose states were on when they ran last */
-    uint32_t left;   /* states that a transition left: they go off where their blocks begin */
+    uint32_t left;   /* states that a transition left: they go off in the next scan */
 } plc_steps;
+
+/* Four of `count` bits as they are in memory: those from number `from` on, or the last ones. */
+PLC_OFTEN uint32_t plc_four(const bool *bits, size_t from, size_t count)
+{
+    uint32_t four;
+    (void)memcpy(&four, &bits[((from + 4u) <= count) ? from : (count - 4u)], sizeof four);
+    return four;
+}
+
+/* A number that changes with each of 4 to 32 bits: each byte of a bit has seven free ones beside it. Few instructions, in contrast
+   to plc_gather. */
+PLC_OFTEN uint32_t plc_seen(const bool *bits, size_t count)
+{
+    return plc_four(bits, 0u, count) | (plc_four(bits, 4u, count) << 1) | (plc_four(bits, 8u, count) << 2)
+        | (plc_four(bits, 12u, count) << 3) | (plc_four(bits, 16u, count) << 4) | (plc_four(bits, 20u, count) << 5)
+        | (plc_four(bits, 24u, count) << 6) | (plc_four(bits, 28u, count) << 7);
+}
 
 /* Up to 32 bits as a number, the first one as bit 0. */
 static inline uint32_t plc_gather(const bool *bits, size_t count)
@@ -288,67 +305,111 @@ static inline uint32_t plc_gather(const bool *bits, size_t count)
     return word;
 }
 
-/* Begins a scan of `count` blocks with these states. */
-static inline void plc_begin_steps(plc_steps *steps, const bool *states, size_t count)
+/* Notes states that have changed. */
+PLC_RARE void plc_note_steps(plc_steps *steps, const bool *states, size_t count, uint32_t seen)
 {
-    const uint32_t on = plc_gather(states, count);
-    steps->run = on | steps->was_on;
-    steps->was_on = on & ~steps->left;
+    steps->seen = seen;
+    steps->on = plc_gather(states, count);
 }
 
-/* Number of the block that runs. */
-PLC_OFTEN unsigned plc_step(const plc_steps *steps)
+/* Number of the first block of some. */
+PLC_OFTEN unsigned plc_first_step(uint32_t run)
 {
 #if defined(__GNUC__)
-    return (unsigned)__builtin_ctz(steps->now);
+    return (unsigned)__builtin_ctz(run);
 #else
     unsigned number = 0;
-    for (uint32_t bit = steps->now; bit > 1u; bit >>= 1) {
+    for (uint32_t rest = run; (rest & 1u) == 0u; rest >>= 1) {
         number++;
     }
     return number;
 #endif
 }
 
-/* Begins the next block that runs; false if there is none. */
-PLC_OFTEN bool plc_next_step(plc_steps *steps, bool *states)
+/* Which of `count` states are on. */
+PLC_OFTEN uint32_t plc_states(plc_steps *steps, const bool *states, size_t count)
 {
-    const uint32_t run = steps->run;
-    const uint32_t now = run & (0u - run);
-    steps->now = now;
-    if (now == 0u) {
-        return false;
+    const uint32_t seen = plc_seen(states, count);
+    if (seen != steps->seen) {
+        plc_note_steps(steps, states, count, seen);
     }
-    steps->run = run ^ now;
+    return steps->on;
+}
+
+/* Switches states off that were left. */
+PLC_RARE void plc_drop_steps(plc_steps *steps, bool *states)
+{
+    for (uint32_t left = steps->left; left != 0u; left &= left - 1u) {
+        states[plc_first_step(left)] = false;
+    }
+    steps->left = 0;
+}
+
+/* Begins a scan of `count` blocks: states that were left go off. Returns the blocks that run. */
+PLC_OFTEN uint32_t plc_begin_steps(plc_steps *steps, bool *states, size_t count)
+{
+    if (steps->left != 0u) {
+        plc_drop_steps(steps, states);
+    }
+    const uint32_t on = plc_states(steps, states, count);
+    const uint32_t run = on | steps->was_on;
+    steps->was_on = on;
+    return run;
+}
+
+/* The same where a block reads states of later ones: plc_drop_step switches states off. */
+PLC_OFTEN uint32_t plc_begin_in_turn(plc_steps *steps, const bool *states, size_t count)
+{
+    const uint32_t on = plc_states(steps, states, count);
+    const uint32_t run = on | steps->was_on;
+    steps->was_on = on & ~steps->left;
+    return run;
+}
+
+/* Switches the state of the first block of `run` off if it was left. */
+PLC_OFTEN void plc_drop_step(plc_steps *steps, bool *states, uint32_t run)
+{
+    const uint32_t now = run & (0u - run);
     if ((steps->left & now) != 0u) {
         steps->left ^= now;
-        states[plc_step(steps)] = false;
+        states[plc_first_step(run)] = false;
     }
-    return true;
 }
 
-/* Switches a state on, which is not left then. If its block comes later in this scan, it runs. */
+/* Switches a state on, which is not left then. */
 PLC_RARE void plc_enter_step(plc_steps *steps, bool *states, unsigned number)
 {
-    const uint32_t bit = UINT32_C(1) << number;
-    const uint32_t later = ~(steps->now | (steps->now - 1u));
     states[number] = true;
-    steps->left &= ~bit;
-    steps->run |= bit & later;
-    steps->was_on |= bit & later;
+    steps->left &= ~(UINT32_C(1) << number);
 }
 
-/* Leaves the state of the block that runs. */
-PLC_RARE void plc_leave_step(plc_steps *steps)
+/* The same from a block before its own, which runs in this scan, too: returns the blocks that run. */
+PLC_RARE uint32_t plc_enter_later(plc_steps *steps, bool *states, uint32_t run, unsigned number)
 {
-    steps->left |= steps->now;
+    const uint32_t bit = UINT32_C(1) << number;
+    plc_enter_step(steps, states, number);
+    steps->was_on |= bit;
+    return run | bit;
 }
 
-/* A transition: enters another state, and leaves the one of the block that runs. */
-PLC_RARE void plc_transfer(plc_steps *steps, bool *states, unsigned number)
+/* Leaves the state of the first block of `run`. */
+PLC_RARE void plc_leave_step(plc_steps *steps, uint32_t run)
+{
+    steps->left |= run & (0u - run);
+}
+
+/* A transition: enters another state, and leaves the one of the first block of `run`. */
+PLC_RARE void plc_transfer(plc_steps *steps, bool *states, uint32_t run, unsigned number)
 {
     plc_enter_step(steps, states, number);
-    plc_leave_step(steps);
+    plc_leave_step(steps, run);
+}
+
+/* The same to a state further down, whose block runs in this scan, too: returns the blocks that run. */
+PLC_RARE uint32_t plc_transfer_later(plc_steps *steps, bool *states, uint32_t run, unsigned number)
+{
+    plc_leave_step(steps, run);
+    return plc_enter_later(steps, states, run, number);
 }
 
 /* ---- Words ---------------------------------------------------------------------------------------------------------- */

@@ -28,12 +28,18 @@ impl<'m> Writer<'_, 'm> {
     fn cases(&mut self, page: &mut Page, number: usize, ladder: &Ladder, cases: &[Case<'_, 'm>]) {
         let (steps, first) = (format!("&plc->steps[{number}]"), ladder.first);
         let states = self.state(first);
-        page.line(&format!(
-            "plc_begin_steps({steps}, &{states}, {}u);",
+        let begin = match ladder.in_turn {
+            true => "plc_begin_in_turn",
+            false => "plc_begin_steps",
+        };
+        page.open(&format!(
+            "for (uint32_t run = {begin}({steps}, &{states}, {}u); run != 0u; run &= run - 1u) {{",
             ladder.states
         ));
-        page.open(&format!("while (plc_next_step({steps}, &{states})) {{"));
-        page.line(&format!("const unsigned step = plc_step({steps});"));
+        if ladder.in_turn {
+            page.line(&format!("plc_drop_step({steps}, &{states}, run);"));
+        }
+        page.line("const unsigned step = plc_first_step(run);");
         if cases.iter().any(|case| case.on.is_some()) {
             let state = match states.strip_suffix("[0]") {
                 Some(array) => format!("{array}[step]"),
@@ -50,10 +56,12 @@ impl<'m> Writer<'_, 'm> {
             if let Some(network) = case.network {
                 self.network(page, network);
             }
+            self.block = Some((number, case.state));
             self.nodes(page, case.rest);
             page.line("break;");
             page.close();
         }
+        self.block = None;
         self.loops -= 1;
         page.line("default:");
         page.inner("break;");
@@ -70,15 +78,26 @@ impl<'m> Writer<'_, 'm> {
     /// Writes a change of the bits of a ladder.
     pub(crate) fn step_move(&mut self, page: &mut Page, change: Move) {
         let mut code = Code::new();
+        let later = change.is_later(self.block);
         let (function, number, entered) = match change {
+            Move::Enter(number, state) if later => ("run = plc_enter_later", number, Some(state)),
             Move::Enter(number, state) => ("plc_enter_step", number, Some(state)),
+            Move::Transfer(number, state) if later => {
+                ("run = plc_transfer_later", number, Some(state))
+            }
             Move::Transfer(number, state) => ("plc_transfer", number, Some(state)),
             Move::Leave(number) => ("plc_leave_step", number, None),
         };
         code.open(&format!("{function}(&plc->steps[{number}]"));
         let ladder = self.plan.ladders.get(number);
-        if let Some((ladder, state)) = ladder.zip(entered) {
+        let entered_at = ladder.zip(entered);
+        if let Some((ladder, _)) = entered_at {
             code.argument(format_args!("&{}", self.state(ladder.first)));
+        }
+        if later || !matches!(change, Move::Enter(..)) {
+            code.argument("run");
+        }
+        if let Some((ladder, state)) = entered_at {
             code.argument(format_args!("{}u", state - ladder.first));
         }
         code.close(");");

@@ -57,6 +57,8 @@ pub struct Writer<'a, 'm> {
     function: usize,
     /// Loops around the current statement.
     pub(crate) loops: usize,
+    /// The ladder and the state of the block around it, where blocks are cases.
+    pub(crate) block: Option<(usize, u32)>,
     /// True if an adjacent operand is a number, so that `!` would look like a mistake.
     pub(crate) numbers: bool,
     /// Variable that counts the iterations of the loop over rungs.
@@ -89,6 +91,7 @@ impl<'a, 'm> Writer<'a, 'm> {
             boolean_conditions: false,
             function: 0,
             loops: 0,
+            block: None,
             numbers: false,
             iteration: String::new(),
             iterations: 0,

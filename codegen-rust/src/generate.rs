@@ -109,6 +109,8 @@ pub struct Generator<'m> {
     pub in_station_loop: bool,
     /// Number of its iterations.
     pub iterations: u32,
+    /// The ladder and the state of the block around the statement being written, where blocks are cases.
+    pub block: Option<(usize, u32)>,
     /// Kinds of timers that coils run, by the functions for them.
     pub timer_coils: BTreeMap<String, TimerKind>,
 }
@@ -134,6 +136,7 @@ impl<'m> Generator<'m> {
             invariants: BTreeSet::new(),
             in_station_loop: false,
             iterations: 0,
+            block: None,
             timer_coils: BTreeMap::new(),
         }
     }

@@ -33,6 +33,7 @@ impl Generator<'_> {
         let mut arms = Vec::new();
         for case in cases {
             let mut arm = Body::default();
+            self.block = Some((number, case.state));
             if let Some(network) = case.network {
                 self.heading(&mut arm, network);
             }
@@ -43,28 +44,39 @@ impl Generator<'_> {
                 body: arm,
             });
         }
+        self.block = None;
         let on = match cases.iter().any(|case| case.on.is_some()) {
             true => format_ident!("{ON}").into_token_stream(),
             false => quote!(_),
         };
         let mut inner = Body::default();
         inner.arms(quote!(match step), arms);
-        body.code(quote!(#steps.begin(&#states);));
-        body.block(
-            quote!(while let Some((step, #on)) = #steps.next(&mut #states)),
-            inner,
-        );
+        let (begin, next) = match ladder.in_turn {
+            true => (
+                quote!(#steps.begin_in_turn(&#states)),
+                quote!(#steps.next_in_turn(&mut run, &mut #states)),
+            ),
+            false => (
+                quote!(#steps.begin(&mut #states)),
+                quote!(run.next(&#states)),
+            ),
+        };
+        body.code(quote!(let mut run = #begin;));
+        body.block(quote!(while let Some((step, #on)) = #next), inner);
     }
 
     /// A change of the bits of a ladder.
     pub(crate) fn step_move(&mut self, body: &mut Body, change: Move) {
         let plan = Rc::clone(&self.plan);
+        let later = change.is_later(self.block);
         let (method, number, state) = match change {
+            Move::Enter(number, state) if later => ("enter_later", number, state),
             Move::Enter(number, state) => ("enter", number, state),
+            Move::Transfer(number, state) if later => ("transfer_later", number, state),
             Move::Transfer(number, state) => ("transfer", number, state),
             Move::Leave(number) => {
                 let steps = steps_field(number);
-                return body.code(quote!(#steps.leave();));
+                return body.code(quote!(#steps.leave(run);));
             }
         };
         let Some(ladder) = plan.ladders.get(number) else {
@@ -73,7 +85,11 @@ impl Generator<'_> {
         let (steps, method) = (steps_field(number), format_ident!("{method}"));
         let states = self.neighbours(ladder.first, ladder.states);
         let at = Literal::u32_unsuffixed(state - ladder.first);
-        body.code(quote!(#steps.#method(&mut #states, #at);));
+        body.code(match change {
+            Move::Enter(..) if !later => quote!(#steps.#method(&mut #states, #at);),
+            _ if later => quote!(run = #steps.#method(&mut #states, run, #at);),
+            _ => quote!(#steps.#method(&mut #states, run, #at);),
+        });
         body.trailing_comment(&comments::device(&self.storage, S, state));
     }
 

@@ -1,27 +1,28 @@
 //! Ladders: neighbouring blocks of a step ladder as the cases of a choice, with a bit in a word for each.
 //!
 //! Each block begins with the same statements on a state and two memories: a state that a transition left goes off, and
-//! the block runs if its state is on, or was. What differs is the rest. So the runtime finds the next block that runs,
-//! and the rest of each is a case. It looks at the states once, before the first block; from there on it notes which of
-//! them transitions switch on. Blocks that change their neighbours' states in other ways are tested instead, one by one
-//! and in groups.
+//! the block runs if its state is on, or was. What differs is the rest. So the runtime finds the blocks that run, and
+//! the rest of each is a case. It looks at the states once, before the first block; from there on it notes which of them
+//! transitions switch on. States that were left go off there, too, unless blocks read whether later ones are on. Blocks
+//! that change their neighbours' states in other ways are tested instead, one by one and in groups.
 
 use crate::plan::{Node, Plan, statements};
 use crate::temps::Home;
 use rungc_ir::Module;
 use rungc_ir::node::{Access, AccessKind, Action, Edge, EdgeId, Expr, ExprId, Steps, Stmt, TempId};
-use rungc_ir::reach::{beyond_operands, written_by};
+use rungc_ir::reach::{Footprint, beyond_operands, of_action, of_expr, written_by};
+use rungc_ir::walk::operands;
 use rungc_rt::EdgeKind;
 use rungc_syntax::DeviceClass::S;
-use rustc_hash::FxHashMap;
-use std::ops::Range;
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::ops::{Range, RangeInclusive};
 
 /// Number of memories of each block: whether its state was left, and whether it was on.
 const MEMORIES: u32 = 2;
 /// Maximum number of blocks with one test.
 const TESTED: u32 = 8;
-/// Maximum number of states of a ladder: bits of a word.
-const STATES: u32 = 32;
+/// Number of states of a ladder: bits of a word, and bytes that are read together.
+const STATES: RangeInclusive<u32> = 4..=32;
 
 /// Neighbouring blocks that are cases.
 pub struct Ladder {
@@ -29,6 +30,8 @@ pub struct Ladder {
     pub first: u32,
     /// Number of states from it on, at most 32; some may have no block here.
     pub states: u32,
+    /// True if a block reads states of later ones: then a state that was left goes off where its block begins.
+    pub in_turn: bool,
     /// First of the memories of its blocks, which the bits replace.
     memory: u32,
     /// States of its blocks, in order.
@@ -71,6 +74,18 @@ pub enum Move {
     Transfer(usize, u32),
     /// The state of the block, which is in this ladder, is left.
     Leave(usize),
+}
+
+impl Move {
+    /// Returns true if this block of a ladder enters a state of the same ladder whose block runs after it.
+    pub fn is_later(self, block: Option<(usize, u32)>) -> bool {
+        match self {
+            Move::Enter(ladder, state) | Move::Transfer(ladder, state) => {
+                block.is_some_and(|(of, from)| of == ladder && from < state)
+            }
+            Move::Leave(_) => false,
+        }
+    }
 }
 
 /// The ladders of a program, in order.
@@ -224,10 +239,11 @@ impl Finder<'_, '_> {
         let ladder = Ladder {
             first: of.first,
             states: of.states,
+            in_turn: cases.iter().any(|case| self.reads_later(of, case)),
             memory: of.memory.0,
             blocks: cases.iter().map(|case| case.state).collect(),
         };
-        let whole = cases.len() > 1 && of.states <= STATES && self.is_array(&ladder);
+        let whole = cases.len() > 1 && STATES.contains(&of.states) && self.is_array(&ladder);
         let fit = |(n, case): (usize, &Case)| {
             let memory = ladder.memory + MEMORIES * n as u32;
             self.only_enters(&ladder, case.state, case.rest)
@@ -290,6 +306,37 @@ impl Finder<'_, '_> {
         !changes
     }
 
+    /// Returns true if a block reads states of later ones.
+    fn reads_later(&self, of: &Steps, case: &Case) -> bool {
+        let (module, last) = (self.module, of.first + of.states - 1);
+        let mut later = false;
+        let mut note = |used: Footprint| {
+            let runs = used.reach(module.model, &module.exprs).into_iter();
+            let mut runs = runs.filter(|_| used.place.class == S);
+            later |= runs.any(|(first, end)| first <= last && case.state < end);
+        };
+        let mut roots = Vec::new();
+        statements(case.rest, &mut |stmt| {
+            if let Stmt::Do(action) = stmt {
+                match action {
+                    // A state that it writes as a whole.
+                    Action::Write(access, _) if access.kind == AccessKind::Bit => {}
+                    action => of_action(module.model, action, &mut note),
+                }
+            }
+        });
+        collect_roots(case.rest, &mut roots);
+        let mut seen = FxHashSet::default();
+        while let Some(expr) = roots.pop() {
+            if !seen.insert(expr) {
+                continue;
+            }
+            of_expr(module.model, module.expr(expr), &mut note);
+            roots.extend(operands(module.expr(expr)));
+        }
+        later
+    }
+
     /// Returns true if a memory of the block is used where it begins, where transitions enter its state, and where they
     /// leave it.
     fn begins_and_leaves(&self, memory: u32, case: &Case) -> bool {
@@ -308,6 +355,14 @@ impl Finder<'_, '_> {
     fn only_begins(&self, memory: u32) -> bool {
         let Uses { off, on, other } = &self.uses;
         other.get(&memory) == Some(&1) && !off.contains_key(&memory) && !on.contains_key(&memory)
+    }
+}
+
+/// The expressions that some nodes evaluate, with those of the bodies inside them.
+fn collect_roots(nodes: &[Node], roots: &mut Vec<ExprId>) {
+    for node in nodes {
+        roots.extend(node.roots());
+        node.bodies().for_each(|body| collect_roots(body, roots));
     }
 }
 

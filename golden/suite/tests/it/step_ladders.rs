@@ -159,7 +159,7 @@ fn emitted_ladders_do_what_the_interpreter_does() {
     let ladders = modules.iter().map(|module| {
         let c = rungc_codegen_c::emit(module, &rungc_codegen_c::Options::default());
         let c = c.iter().filter(|file| file.path.ends_with(".c"));
-        c.map(|file| file.contents.matches("plc_begin_steps(").count())
+        c.map(|file| file.contents.matches("= plc_begin_").count())
             .sum::<usize>()
     });
     let ladders: usize = ladders.sum();
@@ -274,6 +274,34 @@ fn blocks_of_states_in_a_row_are_cases() {
     assert_eq!(of(&sequences_of_eleven(3)), (33, 0));
 }
 
+/// A state that was left goes off in front of the ladder, unless a block before its own reads it.
+#[test]
+fn states_that_are_read_go_off_in_turn() {
+    let begins = |action: &str| {
+        let text = sequences_of_eleven(1);
+        let text = text.replace("OUT M1022\n", &format!("OUT M1022\n{action}\n"));
+        let module = module(&text, ModelId::Fx3u);
+        let c = rungc_codegen_c::emit(&module, &rungc_codegen_c::Options::default());
+        let c: String = c.into_iter().map(|file| file.contents).collect();
+        let rust = rungc_codegen_rust::emit(&module, &rungc_codegen_rust::Options::default());
+        let rust: String = rust.into_iter().map(|file| file.contents).collect();
+        let in_turn = c.contains("= plc_begin_in_turn(&plc");
+        assert_eq!(in_turn, rust.contains(".begin_in_turn(&plc"), "{action}");
+        assert_eq!(in_turn, c.contains("plc_drop_step(&plc"), "{action}");
+        in_turn
+    };
+    for action in ["LD S20\nOUT M0", "SET S27", "LD S31\nOUT M0", "RST S22"] {
+        assert!(!begins(action), "{action}");
+    }
+    for action in [
+        "LD S23\nOUT M0",
+        "MOV K2S24 D0",
+        "MOV D1 Z0\nLD S0Z0\nOUT M0",
+    ] {
+        assert!(begins(action), "{action}");
+    }
+}
+
 /// Blocks that change later states in other ways than by a transition are tested, since their bits would be wrong.
 #[test]
 fn blocks_that_reset_later_states_are_tested() {
@@ -284,7 +312,7 @@ fn blocks_that_reset_later_states_are_tested() {
         let c = rungc_codegen_c::emit(&module, &rungc_codegen_c::Options::default());
         let c: String = c.into_iter().map(|file| file.contents).collect();
         let count = |text| c.matches(text).count();
-        (count("\n        case "), count("plc_begin_steps(&plc"))
+        (count("\n        case "), count("= plc_begin_"))
     };
     for action in [
         "RST S22",
