@@ -3,7 +3,7 @@
 //! What a diagnostic says stands in English where the diagnostic is made, as with `format!`. A [`Phrase`] keeps the
 //! sentence as it stands there, which a translation is found by, and its arguments.
 
-use crate::{Device, DeviceRun, OperandKind};
+use crate::{Device, DeviceRun, Index, Instr, Number, OperandKind};
 use std::borrow::Cow;
 use std::fmt;
 use std::ops::Deref;
@@ -238,8 +238,15 @@ macro_rules! same_in_all_languages {
 }
 
 same_in_all_languages!(
-    str String Cow<'_, str> char u8 u16 u32 u64 usize i16 i32 i64 Device DeviceRun OperandKind fmt::Arguments<'_>
+    str String smol_str::SmolStr Cow<'_, str> char u8 u16 u32 u64 usize i16 i32 i64 Device DeviceRun Index Instr Number OperandKind fmt::Arguments<'_>
 );
+
+impl Default for Phrase {
+    /// An empty text.
+    fn default() -> Self {
+        "".into()
+    }
+}
 
 impl Deref for Phrase {
     type Target = str;

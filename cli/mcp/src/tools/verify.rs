@@ -143,7 +143,10 @@ fn call(call: &mut Call) -> Result<Answer, String> {
         .iter()
         .map(|one| (one.text.as_str(), &one.property));
     let undriven = request::undriven(texts, project.source(), &options, &external);
-    let undriven: Vec<String> = undriven.iter().map(|found| found.message.to_string()).collect();
+    let undriven: Vec<String> = undriven
+        .iter()
+        .map(|found| found.message.to_string())
+        .collect();
     let supposed = words::assumptions(&proving.world, &assumed, &external);
     let file = call.name(&project);
     Ok(answer(
