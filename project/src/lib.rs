@@ -22,7 +22,8 @@ use encoding_rs::Encoding;
 use rungc_frontend::{LearnedCodes, Names, ReadOptions, Unsaved};
 use rungc_models::{ModelId, Variant};
 use rungc_syntax::{
-    Device, DeviceClass, DeviceRun, Diagnostic, Diagnostics, Index, Source, Span, codes, inputs,
+    Device, DeviceClass, DeviceRun, Diagnostic, Diagnostics, Index, Phrase, Source, Span, codes,
+    inputs,
 };
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -364,7 +365,7 @@ impl Project {
 
 impl Named {
     /// That it does not fit its key.
-    pub fn error(&self, why: impl Into<String>) -> Diagnostic {
+    pub fn error(&self, why: impl Into<Phrase>) -> Diagnostic {
         codes::PROJECT_VALUE.at(self.span, why)
     }
 }

@@ -18,7 +18,7 @@ use modbus::MODBUS;
 use module::MODULE;
 use property::PROPERTY;
 use rungc_models::Plc;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes, diag};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Phrase, Span, codes, diag};
 use std::ops::{Range, RangeInclusive};
 use std::path::PathBuf;
 use toml::Spanned;
@@ -239,7 +239,7 @@ impl Reader {
         }
     }
 
-    fn wrong(&mut self, at: Span, message: impl Into<String>, help: &str) {
+    fn wrong(&mut self, at: Span, message: impl Into<Phrase>, help: &str) {
         let mistake = codes::PROJECT_VALUE.at(at, message);
         self.found.push(match help {
             "" => mistake,

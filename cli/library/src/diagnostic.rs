@@ -2,9 +2,8 @@
 
 use crate::location::{Location, named};
 use rungc_project::Check;
-use rungc_syntax::{Diagnostic as Finding, Diagnostics, Label, Program, Severity, codes};
+use rungc_syntax::{Diagnostic as Finding, Diagnostics, Label, Program, Severity, codes, phrase};
 use serde::{Serialize, Serializer};
-use std::borrow::Cow;
 use std::fmt;
 use std::path::Path;
 
@@ -28,8 +27,8 @@ pub struct Diagnostic {
     #[serde(flatten)]
     pub location: Option<Location>,
     /// Text at the place; empty if the message is enough.
-    #[serde(skip_serializing_if = "str::is_empty")]
-    pub label: Cow<'static, str>,
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub label: String,
     /// Other places that it is about.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub related: Vec<Related>,
@@ -38,7 +37,7 @@ pub struct Diagnostic {
     pub devices: Vec<String>,
     /// What to do.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub help: Option<Cow<'static, str>>,
+    pub help: Option<String>,
     /// The change of the text that the help proposes, where the source is a text.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fix: Option<Proposal>,
@@ -61,7 +60,7 @@ pub struct Related {
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 pub struct Proposal {
     /// Effect, in the imperative: `write INCP`.
-    pub title: Cow<'static, str>,
+    pub title: String,
     /// True if `rungc check --fix` applies it.
     pub certain: bool,
     /// The replacements.
@@ -100,9 +99,9 @@ impl Diagnostic {
             code: finding.code,
             name: codes::find(finding.code).map_or("", |code| code.name),
             severity: finding.severity,
-            message: finding.message.clone(),
+            message: finding.message.to_string(),
             location: at(finding.span),
-            label: finding.label.clone(),
+            label: finding.label.to_string(),
             related: finding
                 .others
                 .iter()
@@ -112,9 +111,9 @@ impl Diagnostic {
                 })
                 .collect(),
             devices: finding.devices.iter().map(ToString::to_string).collect(),
-            help: finding.help.clone(),
+            help: finding.help.as_deref().map(str::to_owned),
             fix: fix.map(|fix| Proposal {
-                title: fix.title,
+                title: fix.title.to_string(),
                 certain: fix.certain,
                 edits: fix
                     .edits
@@ -197,7 +196,11 @@ fn joined_labels(mut diagnostics: Vec<Finding>) -> Vec<Finding> {
         return diagnostics;
     };
     if more.len() > 0 {
-        first.message = format!("{}, and so are {} more operands", first.message, more.len());
+        first.message = phrase!(
+            "{first}, and so are {count} more operands",
+            first = first.message,
+            count = more.len()
+        );
     }
     first.others.extend(more.map(|d| Label {
         span: d.span,

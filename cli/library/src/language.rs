@@ -2,11 +2,12 @@
 //!
 //! A language has a folder in `locales/`, with files in the format of [Project Fluent](https://projectfluent.org). A
 //! message in `codes/` has the identifier of a diagnostic code: its value is the title, and its attribute `text` the
-//! explanation. `report.ftl` has what surrounds diagnostics. Above each translation, a comment repeats the English
+//! explanation. `phrases/` has what diagnostics say, and `report.ftl` what surrounds them. Above each translation, a comment repeats the English
 //! text that it is made from, so that a test finds those that no longer fit.
 
 use fluent_bundle::concurrent::FluentBundle;
 use fluent_bundle::{FluentArgs, FluentResource, FluentValue};
+pub use phrases::{identifier, phrase};
 pub use rungc_project::Language;
 use rungc_syntax::codes::Code;
 use rungc_syntax::diag::grouped;
@@ -24,15 +25,30 @@ macro_rules! codes_of {
     };
 }
 
+/// The files of a language that hold what diagnostics say.
+macro_rules! phrases_of {
+    ($folder:literal) => {
+        phrases_of!($folder: "checks" "lowering" "operands" "project" "reading" "structured")
+    };
+    ($folder:literal: $($file:literal)*) => {
+        [$(include_str!(concat!("../locales/", $folder, "/phrases/", $file, ".ftl"))),*]
+    };
+}
+
 const ENGLISH: &str = include_str!("../locales/en/report.ftl");
 const CHINESE: &str = include_str!("../locales/zh-CN/report.ftl");
 const CHINESE_CODES: [&str; 16] = codes_of!("zh-CN");
+const CHINESE_PHRASES: [&str; 6] = phrases_of!("zh-CN");
 
 type Bundle = FluentBundle<FluentResource>;
 
 static IN_ENGLISH: LazyLock<Bundle> = LazyLock::new(|| bundle(Language::English, &[ENGLISH]));
 static IN_CHINESE: LazyLock<Bundle> = LazyLock::new(|| {
-    let files: Vec<_> = std::iter::once(CHINESE).chain(CHINESE_CODES).collect();
+    let files: Vec<_> = [CHINESE]
+        .into_iter()
+        .chain(CHINESE_CODES)
+        .chain(CHINESE_PHRASES)
+        .collect();
     bundle(Language::Chinese, &files)
 });
 
@@ -139,5 +155,6 @@ fn translated(
     Some(bundle.format_pattern(pattern, None, &mut Vec::new()))
 }
 
+mod phrases;
 #[cfg(test)]
 mod tests;

@@ -119,7 +119,7 @@ impl Job {
 
 /// That a text cannot be read.
 fn unread(path: &str, why: &str) -> Diagnostic {
-    let finding = codes::UNREADABLE_FILE.at(Span::default(), why);
+    let finding = codes::UNREADABLE_FILE.at(Span::default(), why.to_owned());
     Diagnostic::new(Path::new(path), None, &[], &finding)
 }
 

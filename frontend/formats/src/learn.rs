@@ -192,7 +192,7 @@ fn readable(project: &Read, export: &Read) -> Result<(), Mismatch> {
         let mut diagnostics = read.diagnostics.iter();
         let error =
             diagnostics.find(|d| d.severity == rungc_syntax::Severity::Error && !codes(d.code));
-        let why = error.map(|d| d.message.clone());
+        let why = error.map(|d| d.message.to_string());
         if let Some(why) = why.or_else(|| (!whole).then(|| "bytes are damaged".to_owned())) {
             return Err(Mismatch::Unreadable { file, why });
         }

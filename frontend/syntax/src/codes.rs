@@ -84,7 +84,7 @@ pub struct Code {
 
 impl Code {
     /// A diagnostic with this code, its severity and its PLC error number.
-    pub fn at(&self, span: Span, message: impl Into<String>) -> Diagnostic {
+    pub fn at(&self, span: Span, message: impl Into<crate::Phrase>) -> Diagnostic {
         let mut diagnostic = Diagnostic::new(self.severity, self.id, span, message);
         diagnostic.plc_error = self.plc_error;
         diagnostic

@@ -1,7 +1,6 @@
 //! Diagnostics: what is wrong with a program, where, and what to do about it. Rendering is the command line's business.
 
-use crate::{Device, Span, codes};
-use std::borrow::Cow;
+use crate::{Device, Phrase, Span, codes};
 
 /// Severity of a finding.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
@@ -40,14 +39,14 @@ pub struct Label {
     /// Position.
     pub span: Span,
     /// Text at the position.
-    pub text: Cow<'static, str>,
+    pub text: Phrase,
 }
 
 /// A change of the program's text that does what a diagnostic proposes.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Fix {
     /// Effect, in the imperative: `write INCP`.
-    pub title: Cow<'static, str>,
+    pub title: Phrase,
     /// Replacements; no edit overlaps another.
     pub edits: Vec<Edit>,
     /// True if it is certainly the intention, so that it may be applied automatically; others are suggestions.
@@ -65,16 +64,16 @@ pub struct Edit {
 
 impl Fix {
     /// A fix that is certainly what was meant: nothing else could be, or the program does not change by it.
-    pub fn certain(title: impl Into<Cow<'static, str>>) -> Self {
+    pub fn certain(title: impl Into<Phrase>) -> Self {
         Self::new(title.into(), true)
     }
 
     /// A fix that may not be what was meant.
-    pub fn suggested(title: impl Into<Cow<'static, str>>) -> Self {
+    pub fn suggested(title: impl Into<Phrase>) -> Self {
         Self::new(title.into(), false)
     }
 
-    fn new(title: Cow<'static, str>, certain: bool) -> Self {
+    fn new(title: Phrase, certain: bool) -> Self {
         let edits = Vec::new();
         Fix {
             title,
@@ -149,17 +148,17 @@ pub struct Diagnostic {
     /// Error, warning or note.
     pub severity: Severity,
     /// One sentence, lower case, no full stop; devices and mnemonics in back quotes.
-    pub message: String,
+    pub message: Phrase,
     /// The place it is about.
     pub span: Span,
     /// Text at that place; may be empty.
-    pub label: Cow<'static, str>,
+    pub label: Phrase,
     /// Other places involved.
     pub others: Vec<Label>,
     /// All devices that it is about, where the message names only some; empty otherwise.
     pub devices: Vec<Device>,
     /// Advice.
-    pub help: Option<Cow<'static, str>>,
+    pub help: Option<Phrase>,
     /// The same as a change of the text, where it is known.
     pub fix: Option<Fix>,
     /// The PLC's own error code, where the manual gives one.
@@ -168,12 +167,12 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     /// An error with this code at this place.
-    pub fn error(code: &'static str, span: Span, message: impl Into<String>) -> Self {
+    pub fn error(code: &'static str, span: Span, message: impl Into<Phrase>) -> Self {
         Self::new(Severity::Error, code, span, message)
     }
 
     /// A warning with this code at this place.
-    pub fn warning(code: &'static str, span: Span, message: impl Into<String>) -> Self {
+    pub fn warning(code: &'static str, span: Span, message: impl Into<Phrase>) -> Self {
         Self::new(Severity::Warning, code, span, message)
     }
 
@@ -182,14 +181,14 @@ impl Diagnostic {
         severity: Severity,
         code: &'static str,
         span: Span,
-        message: impl Into<String>,
+        message: impl Into<Phrase>,
     ) -> Self {
         Diagnostic {
             code,
             severity,
-            message: shortened(message.into()),
+            message: message.into(),
             span,
-            label: Cow::Borrowed(""),
+            label: "".into(),
             others: Vec::new(),
             devices: Vec::new(),
             help: None,
@@ -200,17 +199,17 @@ impl Diagnostic {
 
     /// Sets the text at the main place.
     #[must_use]
-    pub fn label(mut self, text: impl Into<Cow<'static, str>>) -> Self {
-        self.label = shortened_if_owned(text.into());
+    pub fn label(mut self, text: impl Into<Phrase>) -> Self {
+        self.label = text.into();
         self
     }
 
     /// Adds another place.
     #[must_use]
-    pub fn other(mut self, span: Span, text: impl Into<Cow<'static, str>>) -> Self {
+    pub fn other(mut self, span: Span, text: impl Into<Phrase>) -> Self {
         self.others.push(Label {
             span,
-            text: shortened_if_owned(text.into()),
+            text: text.into(),
         });
         self
     }
@@ -224,8 +223,8 @@ impl Diagnostic {
 
     /// Sets the help line.
     #[must_use]
-    pub fn help(mut self, text: impl Into<Cow<'static, str>>) -> Self {
-        self.help = Some(shortened_if_owned(text.into()));
+    pub fn help(mut self, text: impl Into<Phrase>) -> Self {
+        self.help = Some(text.into());
         self
     }
 
@@ -334,34 +333,6 @@ impl Diagnostics {
     /// In the order they were found.
     pub fn iter(&self) -> std::slice::Iter<'_, Diagnostic> {
         self.0.iter()
-    }
-}
-
-/// Longest text between back quotes that a message repeats in full, in characters; commands and file names are shorter.
-const MAX_QUOTED: usize = 100;
-/// Length of the beginning of a longer one that a message shows.
-const SHOWN: usize = 40;
-
-/// A message in which no quotation of the source is longer than a reader needs to recognise it.
-fn shortened(message: String) -> String {
-    let long = |part: &str| part.chars().nth(MAX_QUOTED).is_some();
-    if message.len() <= MAX_QUOTED || !message.split('`').skip(1).step_by(2).any(long) {
-        return message;
-    }
-    let parts = message.split('`').enumerate().map(|(nth, part)| {
-        if nth % 2 == 1 && long(part) {
-            Cow::Owned(part.chars().take(SHOWN).chain(['…']).collect())
-        } else {
-            Cow::Borrowed(part)
-        }
-    });
-    parts.collect::<Vec<_>>().join("`")
-}
-
-fn shortened_if_owned(text: Cow<'static, str>) -> Cow<'static, str> {
-    match text {
-        Cow::Owned(text) => Cow::Owned(shortened(text)),
-        fixed => fixed,
     }
 }
 

@@ -11,6 +11,7 @@ mod device;
 pub mod diag;
 pub mod family;
 pub mod inputs;
+mod phrase;
 mod program;
 mod source;
 pub mod text;
@@ -19,6 +20,9 @@ pub mod toml_words;
 pub use classes::Classes;
 pub use device::{DeviceClass, Number};
 pub use diag::{Diagnostic, Diagnostics, Edit, Fix, Label, Severity};
+#[doc(hidden)]
+pub use phrase::fits;
+pub use phrase::{Argument, Phrase, Say};
 pub use program::{
     Device, DeviceRun, FittedModule, Index, Instr, NetworkRequest, Operand, OperandKind, Operands,
     Parameters, Program, Remarks, SourceKind,

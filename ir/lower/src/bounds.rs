@@ -8,7 +8,7 @@ use rungc_ir::ranges::Bound;
 use rungc_ir::reach::Footprint;
 use rungc_models::Model;
 use rungc_models::runs::is_counter32;
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Index, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Index, Span, codes, phrase};
 use std::collections::BTreeMap;
 
 /// From how many bytes on it is worth knowing what an operand makes a program store.
@@ -46,7 +46,11 @@ pub(super) fn check(resolved: &Resolved, bounds: &[Bound], diagnostics: &mut Dia
     for bound in bounds {
         let operands = resolved.program.instrs.iter().flat_map(|i| &i.operands);
         let mut named = operands.filter(|o| indexed(&o.kind) == Some((bound.device, bound.index)));
-        let operand = format!("{}{}", bound.device, bound.index);
+        let operand = format!(
+            "{device}{index}",
+            device = bound.device,
+            index = bound.index
+        );
         let Some(first) = named.next() else {
             diagnostics.push(unused(resolved, bound, &operand));
             continue;
@@ -57,14 +61,20 @@ pub(super) fn check(resolved: &Resolved, bounds: &[Bound], diagnostics: &mut Dia
         if bound.first > bound.last || !runs.iter().any(exists) {
             let (from, to) = (class.number(bound.first), class.number(bound.last));
             let title = resolved.model.title;
-            let message =
-                format!("`{operand}` is bounded to {from} to {to}, which {title} does not have");
+            let message = phrase!(
+                "`{operand}` is bounded to {from} to {to}, which {title} does not have",
+                operand,
+                from,
+                to,
+                title
+            );
             let runs: Vec<_> = runs
                 .iter()
-                .map(|run| format!("{} to {}", class.number(run.0), class.number(run.1)))
+                .map(|&(first, last)| format!("{}–{}", class.number(first), class.number(last)))
                 .collect();
             let diagnostic = codes::BOUND_OUTSIDE.at(first.span, message);
-            diagnostics.push(diagnostic.help(format!("there are {}", runs.join(" and "))));
+            diagnostics
+                .push(diagnostic.help(phrase!("there are {ranges}", ranges = runs.join(", "))));
         }
     }
 }
@@ -80,13 +90,19 @@ fn unused(resolved: &Resolved, bound: &Bound, operand: &str) -> Diagnostic {
             let distance = device.number.abs_diff(bound.device.number);
             (*index != bound.index, distance)
         });
-    let message = format!("`{operand}` has a bound, but no instruction has this operand");
+    let message = phrase!(
+        "`{operand}` has a bound, but no instruction has this operand",
+        operand
+    );
     let (span, label) = match alike {
-        Some((span, (device, index))) => (span, format!("this operand is `{device}{index}`")),
+        Some((span, (device, index))) => (
+            span,
+            phrase!("this operand is `{device}{index}`", device, index),
+        ),
         None => {
-            let label = format!(
-                "no device {} has an index here",
-                bound.device.class.prefix()
+            let label = phrase!(
+                "no device {prefix} has an index here",
+                prefix = bound.device.class.prefix()
             );
             (Span::default(), label)
         }
@@ -119,17 +135,19 @@ pub(super) fn costs(module: &Module, uses: &[IndexUse], diagnostics: &mut Diagno
             continue;
         }
         let devices: u32 = runs.iter().map(|run| run.1 - run.0 + 1).sum();
-        let operand = format!("{}{index}", used.device);
-        let message =
-            format!("`{operand}` can reach {devices} devices, which take {bytes} bytes of memory");
+        let operand = format!("{device}{index}", device = used.device);
+        let message = phrase!(
+            "`{operand}` can reach {devices} devices, which take {bytes} bytes of memory",
+            operand,
+            devices,
+            bytes
+        );
         let (first, last) = (used.device, class.number(used.device.number + 63));
         diagnostics.push(
             codes::INDEX_REACHES_MUCH
                 .at(used.span, message)
-                .label(format!("little is known of {index} here"))
-                .help(format!(
-                    "compare {index} before, or bound the operand in rungc.toml: `[index]`, `{operand} = \"{first}-{last}\"`"
-                )),
+                .label(phrase!("little is known of {index} here", index))
+                .help(phrase!("compare {index} before, or bound the operand in rungc.toml: `[index]`, `{operand} = \"{first}-{last}\"`", index, operand, first, last)),
         );
     }
 }

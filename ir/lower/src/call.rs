@@ -8,7 +8,7 @@ use rungc_ir::node::{Action, Arg, Branch, Call, CellId, Expr, ExprId, Place, Stm
 use rungc_ir::reach::axis_directions;
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::{Clear, CmpOp, EdgeKind, Looks, RtFn, Wiring};
-use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
+use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes, phrase};
 use std::borrow::Cow;
 
 /// Classes of which registers may name a device at run time.
@@ -276,7 +276,11 @@ impl Lowerer<'_> {
     /// The runtime finds 32-bit counters by their number alone.
     fn report_counter_words(&mut self, operand: &Operand) {
         let name = &self.instr().mnemonic;
-        let message = format!("`{name}` cannot be compiled with `{}`", operand.kind);
+        let message = phrase!(
+            "`{name}` cannot be compiled with `{kind}`",
+            name,
+            kind = operand.kind
+        );
         let diagnostic = codes::NOT_IMPLEMENTED.at(operand.span, message);
         let label = "an index counts the words of 32-bit counters here";
         let help = "copy the counter first, with `DMOV` and the index";

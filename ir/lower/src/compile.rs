@@ -11,7 +11,7 @@ use rungc_ir::node::Module;
 use rungc_ir::passes::optimise;
 pub use rungc_ir::ranges::Bound;
 use rungc_models::{Fit, Model, ModelId, Plc, Variant};
-use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Program, codes};
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Program, codes, phrase};
 use std::collections::BTreeSet;
 
 /// Options of a compilation.
@@ -125,11 +125,15 @@ fn model_of(program: &Program, options: &CompileOptions) -> (&'static Model, Dia
         (None, None) => return (Model::get(ModelId::Fx3u), out),
         (None, Some(cpu)) => (Plc::for_cpu(cpu), cpu),
     };
-    let taken = |id| format!("it is compiled as {}", Model::get(id).name);
+    let taken = |id| phrase!("it is compiled as {id}", id = Model::get(id).name);
     let model = match id {
         Some((plc, Fit::Same)) => plc.model,
         Some((Plc { model: id, .. }, Fit::Nearest(different))) => {
-            let message = format!("CPU type {cpu} is not among the models; {}", taken(id));
+            let message = phrase!(
+                "CPU type {cpu} is not among the models; {id}",
+                cpu,
+                id = taken(id)
+            );
             let note = codes::NEAREST_MODEL.at(program.cpu_span, message);
             out.push(note.help(different));
             id
@@ -138,9 +142,9 @@ fn model_of(program: &Program, options: &CompileOptions) -> (&'static Model, Dia
         None if program.instrs.is_empty() => ModelId::Fx3u,
         None => {
             let id = ModelId::Fx3u;
-            let message = format!("CPU type {cpu} is not known; {}", taken(id));
+            let message = phrase!("CPU type {cpu} is not known; {id}", cpu, id = taken(id));
             let warning = codes::UNKNOWN_CPU.at(program.cpu_span, message);
-            out.push(warning.help(format!("`--model` takes {}", ModelId::names())));
+            out.push(warning.help(phrase!("`--model` takes {names}", names = ModelId::names())));
             id
         }
     };
@@ -161,14 +165,15 @@ fn other_cpu(program: &Program, options: &CompileOptions) -> Option<Diagnostic> 
     let (plc, _) = Plc::for_cpu(cpu)?;
     let named = Some(plc.model).filter(|id| *id != chosen)?;
     let (chosen, named) = (Model::get(chosen), Model::get(named));
-    let message = format!(
-        "`--model` or rungc.toml says {}, but the program names CPU type {cpu}",
-        chosen.name
+    let message = phrase!(
+        "`--model` or rungc.toml says {chosen}, but the program names CPU type {cpu}",
+        chosen = chosen.name,
+        cpu
     );
     let note = codes::OTHER_CPU.at(program.cpu_span, message);
-    Some(note.help(format!(
-        "without the setting it is compiled as {}",
-        named.name
+    Some(note.help(phrase!(
+        "without the setting it is compiled as {named}",
+        named = named.name
     )))
 }
 

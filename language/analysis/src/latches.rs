@@ -3,7 +3,9 @@
 use rungc_models::runs::is_border;
 use rungc_models::{Model, Range};
 use rungc_syntax::DeviceClass::{C, D, M, S};
-use rungc_syntax::{Device, DeviceClass, DeviceRun, Diagnostics, Program, Span, codes};
+use rungc_syntax::{
+    Device, DeviceClass, DeviceRun, Diagnostics, Phrase, Program, Span, codes, phrase,
+};
 use std::borrow::Cow;
 
 /// The latched ranges that the editors write for every CPU type, also for those that do not take them.
@@ -107,10 +109,12 @@ fn retained(program: &Program, model: &Model, out: &mut Diagnostics) {
             continue;
         };
         let comment = program.comments.get(&lost);
-        let named = comment.map_or_else(String::new, |text| format!(" ({text})"));
-        let what = format!(
-            "`{lost}`{named} is to keep its value over power-off, but is not latched on {}",
-            model.name
+        let named = comment.map_or_else(|| "".into(), |text| format!(" ({text})"));
+        let what = phrase!(
+            "`{lost}`{named} is to keep its value over power-off, but is not latched on {model}",
+            lost,
+            named,
+            model = model.name
         );
         let warning = codes::RETAINED.at(Span::default(), what);
         out.push(warning.label("the project says RETAIN").help(
@@ -126,7 +130,7 @@ pub fn check(program: &Program, model: &Model) -> Diagnostics {
     let Some(parameters) = &program.parameters else {
         return out;
     };
-    let mut warn = |message: String, taken: String| {
+    let mut warn = |message: Phrase, taken: Phrase| {
         let warning = codes::PARAMETER_RANGE.at(Span::default(), message);
         out.push(warning.label(taken).help(
             "change the PLC parameters in the editor, or choose another model with `--model`",
@@ -151,20 +155,30 @@ pub fn check(program: &Program, model: &Model) -> Diagnostics {
             class: run.class,
             number,
         };
-        let range = format!("`{}` to `{}`", device(run.first), device(end(run) - 1));
+        let range = phrase!(
+            "`{first}` to `{run}`",
+            first = device(run.first),
+            run = device(end(run) - 1)
+        );
         let name = model.name;
         match fixed {
             true => warn(
-                format!(
-                    "the parameters latch {range}, but the latched devices of {name} are fixed"
+                phrase!(
+                    "the parameters latch {range}, but the latched devices of {name} are fixed",
+                    range,
+                    name
                 ),
-                "the model's own are used".to_owned(),
+                phrase!("the model's own are used"),
             ),
             false => warn(
-                format!("the parameters latch {range}, but {name} cannot latch all of them"),
-                format!(
-                    "the others are latched; `{}` is the first that is not",
-                    device(wrong)
+                phrase!(
+                    "the parameters latch {range}, but {name} cannot latch all of them",
+                    range,
+                    name
+                ),
+                phrase!(
+                    "the others are latched; `{wrong}` is the first that is not",
+                    wrong = device(wrong)
                 ),
             ),
         }
@@ -173,11 +187,19 @@ pub fn check(program: &Program, model: &Model) -> Diagnostics {
         .capacity
         .filter(|&steps| steps > model.memory_steps);
     if let Some(steps) = capacity {
-        let message = format!(
-            "the parameters set a memory of {steps} steps, but {} has {}",
-            model.name, model.memory_steps
+        let message = phrase!(
+            "the parameters set a memory of {steps} steps, but {model} has {memory_steps}",
+            steps,
+            model = model.name,
+            memory_steps = model.memory_steps
         );
-        warn(message, format!("{} steps are used", model.memory_steps));
+        warn(
+            message,
+            phrase!(
+                "{memory_steps} steps are used",
+                memory_steps = model.memory_steps
+            ),
+        );
     }
     out
 }

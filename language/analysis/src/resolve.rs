@@ -8,7 +8,7 @@ mod mnemonic;
 mod operands;
 mod rules;
 mod steps;
-mod suggest;
+pub(crate) mod suggest;
 mod wrong;
 
 use mnemonic::{Fit, Match};

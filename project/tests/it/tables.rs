@@ -317,7 +317,7 @@ fn mistakes_in_labels() {
         .into_iter()
         .map(|labels| match labelled(labels, ModelId::Fx3u) {
             Err(Error::Invalid { diagnostics, .. }) => {
-                let found = diagnostics.iter().map(|it| it.message.clone());
+                let found = diagnostics.iter().map(|it| it.message.to_string());
                 format!("{labels:?}: {}", found.collect::<Vec<_>>().join("; "))
             }
             other => panic!("{labels}: {other:?}"),

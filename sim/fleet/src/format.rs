@@ -9,7 +9,7 @@ use rungc_models::runs::name_class;
 use rungc_project::{Error, device};
 use rungc_rt::comm::service::address;
 use rungc_syntax::codes::FLEET_FILE;
-use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Source, Span, diag, inputs};
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Phrase, Source, Span, diag, inputs};
 use std::net::SocketAddr;
 use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
@@ -161,7 +161,7 @@ impl Fleet {
         let (document, errors) = DeTable::parse_recoverable(&text);
         for error in errors {
             let at = span(error.span().unwrap_or(0..0));
-            reader.report(at, error.message().trim());
+            reader.report(at, error.message().trim().to_owned());
         }
         // Text after a line that is not TOML may belong to another table than it seems.
         if !reader.found.has_errors() {
@@ -255,11 +255,11 @@ struct Reader {
 }
 
 impl Reader {
-    fn report(&mut self, at: Span, message: impl Into<String>) {
+    fn report(&mut self, at: Span, message: impl Into<Phrase>) {
         self.found.push(FLEET_FILE.at(at, message));
     }
 
-    fn help(&mut self, at: Span, message: impl Into<String>, help: impl Into<String>) {
+    fn help(&mut self, at: Span, message: impl Into<Phrase>, help: impl Into<Phrase>) {
         let why = FLEET_FILE.at(at, message);
         self.found.push(match help.into() {
             help if help.is_empty() => why,

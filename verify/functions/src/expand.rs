@@ -5,7 +5,7 @@ use crate::{Demand, Form, Function, Kind, Over, Parameter, Presence, find, libra
 use rungc_host::duration;
 use rungc_project::property::{self, PropertyKind, Row, Use, UseSource};
 use rungc_project::{Named, Project, device};
-use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Span, codes, diag};
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Phrase, Span, codes, diag};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
@@ -289,7 +289,7 @@ impl Values for Filling<'_> {
     }
 }
 
-fn wrong(at: &Named, message: impl Into<String>) -> Diagnostic {
+fn wrong(at: &Named, message: impl Into<Phrase>) -> Diagnostic {
     codes::PROJECT_VALUE.at(at.span, message)
 }
 

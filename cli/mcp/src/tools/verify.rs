@@ -143,7 +143,10 @@ fn call(call: &mut Call) -> Result<Answer, String> {
         .iter()
         .map(|one| (one.text.as_str(), &one.property));
     let undriven = request::undriven(texts, project.source(), &options, &external);
-    let undriven: Vec<String> = undriven.iter().map(|found| found.message.clone()).collect();
+    let undriven: Vec<String> = undriven
+        .iter()
+        .map(|found| found.message.to_string())
+        .collect();
     let supposed = words::assumptions(&proving.world, &assumed, &external);
     let file = call.name(&project);
     Ok(answer(
@@ -184,7 +187,7 @@ fn requested(
     if let Some(settings) = settings {
         let rows = rungc_functions::properties(settings);
         let rows = rows.map_err(|wrong| {
-            let wrong: Vec<_> = wrong.iter().map(|one| one.message.clone()).collect();
+            let wrong: Vec<_> = wrong.iter().map(|one| one.message.to_string()).collect();
             format!("{}: {}", call.files.shown(&settings.path), wrong.join("; "))
         })?;
         for expanded in rows {

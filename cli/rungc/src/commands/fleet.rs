@@ -60,7 +60,7 @@ pub fn run(args: &FleetArgs, cx: Context) -> Result {
             (Some(engine), _) => engine,
             (None, Some(why)) if matches!(plcs.engine, Choice::Lanes | Choice::C) => {
                 let at = plcs.engine_span;
-                return Err(refuse(FLEET_ENGINE.at(at, why.as_str()).into()));
+                return Err(refuse(FLEET_ENGINE.at(at, why).into()));
             }
             (None, _) => {
                 let module = compiled.whole.as_ref().unwrap_or(&compiled.module);

@@ -70,7 +70,7 @@ pub fn print(findings: &Findings, name: &str, style: Style, out: &mut dyn Write)
 /// Message about a place.
 struct Mark<'a> {
     span: Span,
-    text: &'a str,
+    text: Cow<'a, str>,
     color: Color,
 }
 
@@ -91,20 +91,18 @@ fn draw(findings: &Findings, name: &str, d: &Diagnostic, style: Style) -> io::Re
         Severity::Warning => Color::Yellow,
         Severity::Note => Color::Cyan,
     };
-    let here = message(language, "here", &[]);
-    let label = if d.label.is_empty() {
-        here.as_str()
-    } else {
-        &d.label
-    };
+    let said = |text| language::phrase(language, text);
     let mut marks = vec![Mark {
         span: d.span,
-        text: label,
+        text: match d.label.is_empty() {
+            true => message(language, "here", &[]).into(),
+            false => said(&d.label),
+        },
         color: main,
     }];
     marks.extend(d.others.iter().take(MAX_PLACES).map(|other| Mark {
         span: other.span,
-        text: &other.text,
+        text: said(&other.text),
         color: Color::Blue,
     }));
     marks.sort_by_key(|mark| mark.span.start);
@@ -113,7 +111,8 @@ fn draw(findings: &Findings, name: &str, d: &Diagnostic, style: Style) -> io::Re
     let head = findings.location(d.span).unwrap_or_default().headed(name);
     let head = visible_line(&head);
     let heading = format!("{}[{}]", severity(d.severity, language), d.code);
-    let detail = visible_line(&d.message);
+    let detail = said(&d.message);
+    let detail = visible_line(&detail);
     let title = title(d, language);
     let marked = |text: &str| match &title {
         Some(_) => format!("{MARK}{text}"),
@@ -123,11 +122,11 @@ fn draw(findings: &Findings, name: &str, d: &Diagnostic, style: Style) -> io::Re
         .with_config(Config::default().with_color(color))
         .with_message(marked(title.as_deref().unwrap_or(&detail)));
     for (range, mark) in labels {
-        let label = Label::new((&*head, range)).with_message(visible_line(mark.text));
+        let label = Label::new((&*head, range)).with_message(visible_line(&mark.text));
         report.add_label(label.with_color(mark.color));
     }
     if let Some(help) = &d.help {
-        report.add_help(marked(&visible_line(help)));
+        report.add_help(marked(&visible_line(&said(help))));
     }
     let more = d.others.len().saturating_sub(MAX_PLACES);
     if more > 0 {
@@ -311,7 +310,7 @@ mod tests {
             .map(|&(number, start, end)| {
                 let mark = Mark {
                     span: Span::new(start, end),
-                    text: "here",
+                    text: "here".into(),
                     color: Color::Red,
                 };
                 (number.to_owned(), mark)
@@ -329,7 +328,7 @@ mod tests {
         let mut report = Report::build(ReportKind::Error, ("place", 0..0))
             .with_config(Config::default().with_color(color));
         for (range, mark) in labels {
-            report.add_label(Label::new(("place", range)).with_message(mark.text));
+            report.add_label(Label::new(("place", range)).with_message(&*mark.text));
         }
         let (source, mut drawn) = (Source::from(source), Vec::new());
         let report = report.finish();

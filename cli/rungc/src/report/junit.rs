@@ -78,7 +78,7 @@ pub fn of_errors(findings: &Findings) -> Suite {
             let problem = Problem {
                 result: Result::Failed,
                 kind: d.code,
-                message: d.message.clone(),
+                message: d.message.to_string(),
                 text: format!("{}: {}", place.headed(&path), d.message),
             };
             case(format!("{} {}", place.headed(&path), d.code), Some(problem))

@@ -114,7 +114,7 @@ fn item(findings: &Findings, d: &Diagnostic) -> Value {
         Severity::Warning => "warning",
         Severity::Note => "note",
     };
-    let mut text = d.message.clone();
+    let mut text = d.message.to_string();
     if let Some(help) = &d.help {
         text = format!("{text}\n\nHelp: {help}");
     }
@@ -150,7 +150,7 @@ fn change(findings: &Findings, fix: &Fix) -> Value {
         }))
     });
     json!({
-        "description": { "text": fix.title },
+        "description": { "text": fix.title.as_str() },
         "artifactChanges": [{
             "artifactLocation": artifact(findings.path),
             "replacements": replacements.collect::<Vec<_>>(),

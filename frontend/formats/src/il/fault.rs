@@ -5,7 +5,7 @@ use chumsky::input::{Checkpoint, Cursor, Input};
 use chumsky::inspector::Inspector;
 use chumsky::span::SimpleSpan;
 use rungc_syntax::diag::did_you_mean;
-use rungc_syntax::{DeviceClass, Diagnostic, Fix, OperandKind, Span, codes};
+use rungc_syntax::{DeviceClass, Diagnostic, Fix, OperandKind, Span, codes, phrase};
 
 /// A finding of the grammar, at a range of the folded line.
 #[derive(Clone, Copy, Debug)]
@@ -123,7 +123,7 @@ impl Wanted {
         let is_device = mistyped || DeviceClass::from_prefix(&upper).is_some();
         (self == Wanted::Prefix("P") && is_word && !is_device && !is_name(text)).then(|| {
             codes::BAD_OPERAND
-                .at(span, format!("`{text}` is not a valid operand"))
+                .at(span, phrase!("`{text}` is not a valid operand", text))
                 .label("not a pointer")
                 .help("jumps and calls name the number of a label, for example `P0`")
         })
@@ -142,14 +142,15 @@ impl Wanted {
         };
         let mut meant = [format!("{prefix}{number}"), format!("M{number}")].into_iter();
         let meant = meant.find(|meant| is_operand(meant))?;
-        let error = codes::BAD_OPERAND.at(span, format!("`{text}` is not a valid operand"));
+        let error = codes::BAD_OPERAND.at(span, phrase!("`{text}` is not a valid operand", text));
         Some(match self {
             Wanted::Prefix(_) => error
-                .label(format!("a number without its {prefix}"))
-                .help(format!("write `{meant}`"))
-                .fix(Fix::suggested(format!("write `{meant}`")).replace(span, meant)),
-            _ => error.label("a number without its device").help(format!(
-                "write the device with its letter, for example `{meant}`"
+                .label(phrase!("a number without its {prefix}", prefix))
+                .help(phrase!("write `{meant}`", meant))
+                .fix(Fix::suggested(phrase!("write `{meant}`", meant)).replace(span, meant)),
+            _ => error.label("a number without its device").help(phrase!(
+                "write the device with its letter, for example `{meant}`",
+                meant
             )),
         })
     }
@@ -219,7 +220,10 @@ impl Kind {
         match self {
             Kind::Line => line(span, text),
             Kind::Bare => codes::BAD_INSTRUCTION
-                .at(span, format!("step number `{text}` has no instruction"))
+                .at(
+                    span,
+                    phrase!("step number `{text}` has no instruction", text),
+                )
                 .label("nothing follows it")
                 .help("put an instruction and all its operands on one line"),
             Kind::Operand => operand(span, text),
@@ -227,16 +231,17 @@ impl Kind {
             Kind::DigitCount => codes::DIGITS
                 .at(
                     span,
-                    format!("`{text}` does not group 1 to 8 digits of 4 bits"),
+                    phrase!("`{text}` does not group 1 to 8 digits of 4 bits", text),
                 )
                 .label("the digit count is 1 to 8")
                 .help("16-bit instructions accept K1 to K4, 32-bit ones K1 to K8"),
             Kind::DigitClass(class) => codes::OPERAND_CLASS
                 .at(
                     span,
-                    format!(
-                        "`{text}` groups {} devices, which cannot be grouped",
-                        class.prefix()
+                    phrase!(
+                        "`{text}` groups {prefix} devices, which cannot be grouped",
+                        text,
+                        prefix = class.prefix()
                     ),
                 )
                 .label("only X, Y, M and S can be grouped")
@@ -244,7 +249,10 @@ impl Kind {
                     "words have no digit count, for example `D0`; separate operands with a space",
                 ),
             Kind::BitNumber => codes::BAD_OPERAND
-                .at(span, format!("`{text}` does not name a bit of a word"))
+                .at(
+                    span,
+                    phrase!("`{text}` does not name a bit of a word", text),
+                )
                 .label("the bit number is one hexadecimal digit, 0 to F")
                 .help("bit 10 is `.A`, bit 15 is `.F`"),
             Kind::Unclosed => codes::OPEN_TEXT
@@ -261,8 +269,8 @@ impl Kind {
                     ),
                 )
                 .label("only looks like one")
-                .help(format!("type `{text}` with Latin letters"))
-                .fix(Fix::certain(format!("write `{text}`")).replace(span, text)),
+                .help(phrase!("type `{text}` with Latin letters", text))
+                .fix(Fix::certain(phrase!("write `{text}`", text)).replace(span, text)),
             Kind::SpacedLabel | Kind::SpacedNumber => {
                 let joined: String = text.split_whitespace().collect();
                 let what = match self {
@@ -272,11 +280,11 @@ impl Kind {
                 codes::BAD_OPERAND
                     .at(span, what)
                     .label("is one word")
-                    .help(format!("write `{joined}`"))
-                    .fix(Fix::certain(format!("write `{joined}`")).replace(span, joined))
+                    .help(phrase!("write `{joined}`", joined))
+                    .fix(Fix::certain(phrase!("write `{joined}`", joined)).replace(span, joined))
             }
             Kind::CommentSign => codes::BAD_INSTRUCTION
-                .at(span, format!("`{text}` does not start a comment"))
+                .at(span, phrase!("`{text}` does not start a comment", text))
                 .label("neither an instruction nor an operand")
                 .help("comments start with `;` or `//` and end with their line"),
             Kind::Step | Kind::DeviceNumber | Kind::Decimal | Kind::Hex | Kind::Float => {
@@ -285,7 +293,7 @@ impl Kind {
             Kind::SmallFloat => codes::BIG_NUMBER
                 .at(
                     span,
-                    format!("floating constant `{text}` is too close to 0"),
+                    phrase!("floating constant `{text}` is too close to 0", text),
                 )
                 .label("single precision begins at about 1.18E-38")
                 .help("check the exponent, or write `E0`"),
@@ -321,7 +329,7 @@ impl Kind {
             ),
         };
         codes::BIG_NUMBER
-            .at(span, format!("{what} `{text}` is too large"))
+            .at(span, phrase!("{what} `{text}` is too large", what, text))
             .label(label)
             .help(help)
     }
@@ -339,11 +347,14 @@ fn line(span: Span, text: &str) -> Diagnostic {
             .label("the Ctrl-Z")
             .help("delete it, and what is below it if that is not part of the program");
     }
-    let error = codes::BAD_INSTRUCTION.at(span, format!("expected an instruction, found `{word}`"));
+    let error = codes::BAD_INSTRUCTION.at(
+        span,
+        phrase!("expected an instruction, found `{word}`", word),
+    );
     match word.split_at_checked(digits) {
         Some((step, rest)) if digits > 0 && !rest.is_empty() => error
             .label("a mnemonic starts with a letter")
-            .help(format!("if `{step}` is the step number, put a space after it: `{step} {rest}`")),
+            .help(phrase!("if `{step}` is the step number, put a space after it: `{step} {rest}`", step, rest)),
         _ => error
             .label("not an instruction")
             .help("an instruction is a mnemonic and its operands, for example `OUT T0 K30`; comments start with `;` or `//`"),
@@ -356,15 +367,21 @@ fn octal(class: DeviceClass, span: Span, text: &str) -> Diagnostic {
     let error = codes::BAD_OCTAL
         .at(
             span,
-            format!("`{text}` is not an octal number: {prefix} devices have no digits 8 and 9"),
+            phrase!(
+                "`{text}` is not an octal number: {prefix} devices have no digits 8 and 9",
+                text,
+                prefix
+            ),
         )
         .label("8 and 9 are not octal digits");
     // No model has a terminal beyond 377.
     let decimal = digits.parse().ok().filter(|&n: &u32| n <= 0o377);
-    let decimal = decimal.map(|n| format!("; decimal {n} is `{}`", class.number(n)));
-    error.help(format!(
-        "{prefix} counts in octal, so {prefix}007 is followed by {prefix}010{}",
-        decimal.unwrap_or_default()
+    let decimal =
+        decimal.map(|n| phrase!("; decimal {n} is `{number}`", n, number = class.number(n)));
+    error.help(phrase!(
+        "{prefix} counts in octal, so {prefix}007 is followed by {prefix}010{decimal}",
+        prefix,
+        decimal = decimal.unwrap_or_default()
     ))
 }
 
@@ -379,29 +396,36 @@ fn operand(span: Span, text: &str) -> Diagnostic {
     let known = DeviceClass::from_prefix(prefix).is_some();
     if rest.is_empty() && (known || matches!(prefix, "K" | "H" | "E")) {
         return codes::BAD_OPERAND
-            .at(span, format!("`{text}` lacks its number"))
+            .at(span, phrase!("`{text}` lacks its number", text))
             .label(if known {
                 "device without a number"
             } else {
                 "constant without a value"
             })
-            .help(format!("write for example `{prefix}10`"));
+            .help(phrase!("write for example `{prefix}10`", prefix));
     }
-    let error = codes::BAD_OPERAND.at(span, format!("`{text}` is not a valid operand"));
+    let error = codes::BAD_OPERAND.at(span, phrase!("`{text}` is not a valid operand", text));
     let accepted = |meant: &String| is_operand(meant);
     if let Some((what, meant)) = other_notation(&upper).filter(|(_, meant)| is_operand(meant)) {
-        let fix = Fix::certain(format!("write `{meant}`")).replace(span, meant.as_str());
-        return error.label(what).help(format!("write `{meant}`")).fix(fix);
+        let fix = Fix::certain(phrase!("write `{meant}`", meant)).replace(span, meant.as_str());
+        return error
+            .label(what)
+            .help(phrase!("write `{meant}`", meant))
+            .fix(fix);
     }
     if let Ok(number) = upper.parse::<i64>() {
         let decimal = Some(format!("K{number}")).filter(accepted);
         let hexadecimal = Some(format!("H{upper}")).filter(accepted);
         let help = match (decimal, hexadecimal) {
             (None, None) => return Kind::Decimal.too_large(span, text),
-            (Some(k), None) => format!("write `{k}` for a decimal constant"),
-            (None, Some(h)) => format!("write `{h}` for a hexadecimal constant"),
+            (Some(k), None) => phrase!("write `{k}` for a decimal constant", k),
+            (None, Some(h)) => phrase!("write `{h}` for a hexadecimal constant", h),
             (Some(k), Some(h)) => {
-                format!("write `{k}` for a decimal constant, `{h}` for a hexadecimal one")
+                phrase!(
+                    "write `{k}` for a decimal constant, `{h}` for a hexadecimal one",
+                    k,
+                    h
+                )
             }
         };
         return error.label("a number without its kind").help(help);
@@ -409,8 +433,8 @@ fn operand(span: Span, text: &str) -> Diagnostic {
     if let Some(meant) = mistyped_digit(&upper).filter(accepted) {
         return error
             .label("a letter where a digit is expected")
-            .help(format!("did you mean `{meant}`?"))
-            .fix(Fix::suggested(format!("write `{meant}`")).replace(span, meant.as_str()));
+            .help(phrase!("did you mean `{meant}`?", meant))
+            .fix(Fix::suggested(phrase!("write `{meant}`", meant)).replace(span, meant.as_str()));
     }
     match prefix {
         "K" => error.label("not a decimal constant").help("write for example `K10`, `K-5`, or `K4M0` for a group of bits"),
@@ -418,20 +442,20 @@ fn operand(span: Span, text: &str) -> Diagnostic {
         "E" => error.label("not a floating constant").help("write for example `E1.5` or `E-1.5E+3`"),
         "U" => error.label("not an address in buffer memory").help("write for example `U0\\G5`: module 0, address 5"),
         _ if known => error
-            .label(format!("unexpected text after the number of this {prefix} device"))
-            .help(format!("an operand is for example `{prefix}10`, with an index register `D0Z0`, or a bit of a word `D0.F`")),
+            .label(phrase!("unexpected text after the number of this {prefix} device", prefix))
+            .help(phrase!("an operand is for example `{prefix}10`, with an index register `D0Z0`, or a bit of a word `D0.F`", prefix)),
         _ => {
             if is_name(text) {
                 return codes::LABEL_OPERAND
-                    .at(span, format!("`{text}` is a label, not a device"))
+                    .at(span, phrase!("`{text}` is a label, not a device", text))
                     .label("only the compiled program says which device this is")
                     .help("export the list of the compiled program, or write the device that the label stands for");
             }
             let classes = DeviceClass::ALL.map(DeviceClass::prefix);
             let near = did_you_mean(prefix, classes.into_iter().filter(|c| c.len() > 1));
             let help = match near.map(|near| format!("{near}{rest}")).filter(accepted) {
-                Some(meant) => format!("did you mean `{meant}`?"),
-                None => format!("devices are {}; constants start with K, H or E; text is quoted", classes.join(", ")),
+                Some(meant) => phrase!("did you mean `{meant}`?", meant),
+                None => phrase!("devices are {classes}; constants start with K, H or E; text is quoted", classes = classes.join(", ")),
             };
             error.label("neither a device nor a constant").help(help)
         }

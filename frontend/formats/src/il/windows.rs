@@ -10,7 +10,7 @@ use super::jumps::{instruction, words};
 use crate::text::clean;
 use rungc_syntax::diag::did_you_mean;
 use rungc_syntax::{
-    Device, DeviceClass, Diagnostic, Instr, OperandKind, Operands, Source, Span, codes,
+    Device, DeviceClass, Diagnostic, Instr, OperandKind, Operands, Source, Span, codes, phrase,
 };
 use smol_str::ToSmolStr;
 use std::collections::{BTreeMap, BTreeSet};
@@ -298,7 +298,7 @@ impl Reader {
         if let Some(why) = heading.fault {
             let written = &line[heading.place.clone()];
             let error = codes::WINDOW_HEADING
-                .at(span, format!("`{written}` does not begin a window"))
+                .at(span, phrase!("`{written}` does not begin a window", written))
                 .label(why)
                 .help("windows begin with `MAIN`, `SBR name` and `INT name I001`, the main program first");
             self.diagnostics.push(error);
@@ -378,17 +378,15 @@ fn implied(mnemonic: &str, at: u32) -> Instr {
 impl Windows {
     /// A call of a window that is not there.
     fn missing(&self, name: &str, span: Span) -> Diagnostic {
-        let error = codes::UNKNOWN_WINDOW.at(span, format!("no window is called `{name}`"));
+        let error = codes::UNKNOWN_WINDOW.at(span, phrase!("no window is called `{name}`", name));
         // Of a single character, any other would be near.
         let names = self.names.keys().map(String::as_str);
         let near = did_you_mean(name, names).filter(|_| name.chars().count() > 1);
         match near {
             Some(near) => error
                 .label("no subroutine has this name")
-                .help(format!("did you mean `{near}`?")),
-            None => error.label("no subroutine has this name").help(format!(
-                "put the heading `SBR {name}` above the list of this subroutine, or write the pointer that is called"
-            )),
+                .help(phrase!("did you mean `{near}`?", near)),
+            None => error.label("no subroutine has this name").help(phrase!("put the heading `SBR {name}` above the list of this subroutine, or write the pointer that is called", name)),
         }
     }
 }

@@ -129,7 +129,7 @@ fn device_comments_are_found_by_their_columns() {
         let found: Vec<_> = read
             .diagnostics
             .iter()
-            .map(|d| (d.code, d.message.clone()))
+            .map(|d| (d.code, d.message.to_string()))
             .collect();
         let row = if table.starts_with('X') { "2" } else { "3" };
         assert_eq!(

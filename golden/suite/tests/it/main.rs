@@ -25,6 +25,7 @@ mod links;
 mod machine_code;
 mod machines;
 mod motion;
+mod phrases;
 mod pipeline;
 mod plcopen;
 mod port_errors;

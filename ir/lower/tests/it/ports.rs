@@ -27,7 +27,9 @@ fn messages(model: ModelId, text: &str, code: &str) -> String {
     };
     let diagnostics = check(&program, &options).diagnostics.sorted();
     let own = diagnostics.into_iter().filter(|d| d.code == code);
-    own.map(|d| d.message).collect::<Vec<_>>().join("; ")
+    own.map(|d| d.message.to_string())
+        .collect::<Vec<_>>()
+        .join("; ")
 }
 
 /// Two ways to choose a protocol, used at once.

@@ -14,7 +14,7 @@ fn found(model: ModelId, lines: &str) -> Vec<(&'static str, String)> {
         ..CompileOptions::default()
     };
     let diagnostics = check(&read_text("program", &text).program, &options).diagnostics;
-    let help = |help: Option<std::borrow::Cow<'static, str>>| help.unwrap_or_default().into_owned();
+    let help = |help: Option<rungc_syntax::Phrase>| help.unwrap_or_default().to_string();
     let sorted = diagnostics.sorted().into_iter();
     sorted.map(|found| (found.code, help(found.help))).collect()
 }

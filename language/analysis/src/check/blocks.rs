@@ -6,7 +6,7 @@
 
 use super::{Code, Part};
 use rungc_catalogue::Basic;
-use rungc_syntax::{Diagnostic, Diagnostics, Fix, codes};
+use rungc_syntax::{Diagnostic, Diagnostics, Fix, codes, phrase};
 
 /// Maximum number of blocks that may wait to be joined.
 const MAX_BLOCKS: usize = 8;
@@ -154,7 +154,10 @@ impl Rungs<'_, '_> {
         match self.blocks.last_mut() {
             Some(block) => block.spent = false,
             None => {
-                let message = format!("`{}` has no contact to continue", self.code.instr(i));
+                let message = phrase!(
+                    "`{instr}` has no contact to continue",
+                    instr = self.code.instr(i)
+                );
                 let diagnostic = codes::NO_START
                     .at(self.code.span(i), message)
                     .label("no chain of contacts has started")
@@ -178,15 +181,20 @@ impl Rungs<'_, '_> {
             }
             return;
         }
-        let diagnostic =
-            codes::NO_BLOCK.at(self.code.span(i), format!("`{name}` needs two blocks"));
+        let diagnostic = codes::NO_BLOCK.at(
+            self.code.span(i),
+            phrase!("`{name}` needs two blocks", name),
+        );
         let diagnostic = match self.blocks.last() {
             Some(block) => diagnostic
                 .label("there is only one block before it")
                 .other(self.code.span(block.start), "which starts here"),
             None => diagnostic.label("there is no block before it"),
         };
-        let help = format!("delete this {name}, or start the second block with LD");
+        let help = phrase!(
+            "delete this {name}, or start the second block with LD",
+            name
+        );
         self.report(diagnostic.help(help));
     }
 
@@ -221,7 +229,7 @@ impl Rungs<'_, '_> {
         let name = &self.code.instr(i).mnemonic;
         let Some(branch) = self.branches.last_mut() else {
             let diagnostic = codes::NO_BRANCH
-                .at(self.code.span(i), format!("`{name}` without MPS"))
+                .at(self.code.span(i), phrase!("`{name}` without MPS", name))
                 .label("no result is stored here");
             let diagnostic = match self.closed.filter(|_| part == Part::Pop) {
                 // The branch is there; it was closed too early.
@@ -229,8 +237,9 @@ impl Rungs<'_, '_> {
                     .other(self.code.span(closed), "this MPP closed the branch")
                     .help("write MRD to return to a branch that continues")
                     .fix(self.write("MRD", closed)),
-                None => diagnostic.help(format!(
-                    "delete this {name}, or put MPS where the branch starts"
+                None => diagnostic.help(phrase!(
+                    "delete this {name}, or put MPS where the branch starts",
+                    name
                 )),
             };
             self.report(diagnostic);
@@ -252,7 +261,7 @@ impl Rungs<'_, '_> {
             let diagnostic = codes::CROSSED_BRANCH
                 .at(
                     self.code.span(i),
-                    format!("`{name}` leaves a block that was not joined"),
+                    phrase!("`{name}` leaves a block that was not joined", name),
                 )
                 .label("returns to the branch")
                 .other(self.code.span(open), "this block is still open")
@@ -270,9 +279,9 @@ impl Rungs<'_, '_> {
     fn output(&mut self, i: usize) {
         let Some(top) = self.blocks.len().checked_sub(1) else {
             if !self.in_state {
-                let message = format!(
-                    "`{}` needs a contact before it",
-                    self.code.instr(i).mnemonic
+                let message = phrase!(
+                    "`{mnemonic}` needs a contact before it",
+                    mnemonic = self.code.instr(i).mnemonic
                 );
                 let diagnostic = codes::NO_CONTACT
                     .at(self.code.span(i), message)
@@ -345,7 +354,7 @@ impl Rungs<'_, '_> {
 
     /// The fix that writes another mnemonic for an instruction without operands.
     fn write(&self, mnemonic: &'static str, i: usize) -> Fix {
-        Fix::certain(format!("write {mnemonic}"))
+        Fix::certain(phrase!("write {mnemonic}", mnemonic))
             .replace(self.code.instr(i).mnemonic_span, mnemonic)
     }
 
@@ -384,10 +393,7 @@ impl Rungs<'_, '_> {
             Some(i) => codes::STANDS_ALONE
                 .at(
                     self.code.span(i),
-                    format!(
-                        "`{}` must not have contacts before it",
-                        self.code.instr(i).mnemonic
-                    ),
+                    phrase!("`{mnemonic}` must not have contacts before it", mnemonic = self.code.instr(i).mnemonic),
                 )
                 .label("must be connected directly to the bus")
                 .other(self.code.span(start), "these contacts drive nothing")

@@ -11,7 +11,7 @@ use super::{Code, Part};
 use crate::accesses::{self, Access};
 use rungc_catalogue::{Basic, Lower, Role};
 use rungc_rt::{Needs, RtFn};
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, OperandKind, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, OperandKind, codes, phrase};
 use rustc_hash::FxHashMap;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -178,13 +178,18 @@ fn pulses(code: &Code, places: Where, i: usize, coils: &[Place]) -> Option<Diagn
     let meets = |coil: &&Place| coil.certain.is_some() || coil.condition == own;
     let coil = coils.iter().filter(|coil| !coil.is_word).find(meets)?.at;
     let (mnemonic, output) = (&code.instr(i).mnemonic, code.device(coil, 0)?);
-    let message = format!("coil `{output}` is also the output of `{mnemonic}`");
+    let message = phrase!(
+        "coil `{output}` is also the output of `{mnemonic}`",
+        output,
+        mnemonic
+    );
     let diagnostic = codes::DOUBLE_COIL
         .at(code.span(coil), message)
         .label("writes the output in every scan …")
         .other(code.span(i), "… while this sends pulses through it");
-    Some(diagnostic.help(format!(
-        "leave the output to `{mnemonic}`, or give the coil another one"
+    Some(diagnostic.help(phrase!(
+        "leave the output to `{mnemonic}`, or give the coil another one",
+        mnemonic
     )))
 }
 
@@ -461,29 +466,34 @@ fn driven_twice(
         None => device.to_string(),
     };
     let times = match earlier.len() {
-        1 => "twice".to_owned(),
-        n => format!("at {} places", n + 1),
+        1 => phrase!("twice"),
+        n => phrase!("at {n} places", n = n + 1),
     };
     let timer = matches!(device.class, DeviceClass::T | DeviceClass::C);
-    let (verb, finding, what, label, help) = match (timer, words) {
+    let (finding, what, label, help) = match (timer, words) {
         (true, _) => (
-            "driven",
             &codes::TIMER_TWICE,
-            format!("`{name}` is driven {times}"),
+            phrase!("`{name}` is driven {times}", name, times),
             "… and again here",
             "use a separate one in each place",
         ),
         (false, false) => (
-            "driven",
             &codes::DOUBLE_COIL,
-            format!("coil `{name}` is driven {times}; only the last result counts"),
+            phrase!(
+                "coil `{name}` is driven {times}; only the last result counts",
+                name,
+                times
+            ),
             "… and again here: this one decides the state of the coil",
             "join the conditions with OR into one coil, or use SET and RST",
         ),
         (false, true) => (
-            "written",
             &codes::DOUBLE_COIL,
-            format!("`{name}` is written {times}; only the last result counts"),
+            phrase!(
+                "`{name}` is written {times}; only the last result counts",
+                name,
+                times
+            ),
             "… and again here: this one decides its state",
             "write it in one place, or use another device",
         ),
@@ -495,8 +505,10 @@ fn driven_twice(
     let mut diagnostic = finding.at(code.span(last), what).label(label).help(help);
     for (n, &coil) in earlier.iter().enumerate() {
         let text = match n {
-            0 => format!("first {verb} here …"),
-            _ => format!("… {verb} here …"),
+            0 if words && !timer => phrase!("first written here …"),
+            0 => phrase!("first driven here …"),
+            _ if words && !timer => phrase!("… written here …"),
+            _ => phrase!("… driven here …"),
         };
         diagnostic = diagnostic.other(code.span(coil), text);
     }
@@ -507,20 +519,25 @@ fn driven_together(code: &Code, device: Device, [first, second]: [usize; 2]) -> 
     let (finding, what, label, help) = match device.class {
         DeviceClass::T | DeviceClass::C => (
             &codes::TIMER_TWICE,
-            "",
+            phrase!(
+                "`{device}` is driven in branches that run at the same time",
+                device
+            ),
             "… and in this one",
             "use a separate one in each branch",
         ),
         _ => (
             &codes::DOUBLE_COIL,
-            "coil ",
+            phrase!(
+                "coil `{device}` is driven in branches that run at the same time",
+                device
+            ),
             "… and in this one, which decides while both run",
             "drive it after RET, with the contacts of both states",
         ),
     };
-    let message = format!("{what}`{device}` is driven in branches that run at the same time");
     finding
-        .at(code.span(second), message)
+        .at(code.span(second), what)
         .label(label)
         .other(code.span(first), "driven in one branch …")
         .help(help)

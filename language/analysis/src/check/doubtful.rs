@@ -2,7 +2,7 @@
 
 use super::Code;
 use crate::accesses::Access;
-use rungc_syntax::{Device, Diagnostics, Span, codes};
+use rungc_syntax::{Device, Diagnostics, Span, codes, phrase};
 use std::collections::BTreeMap;
 
 /// Maximum number of devices that a message names.
@@ -44,15 +44,20 @@ impl Doubtful {
         let title = code.model().title;
         let areas = code.model().doubtful.iter();
         let areas = areas.map(|&(class, first, last)| {
-            format!("{} to {}", class.number(first), class.number(last))
+            let [first, last] = [first, last].map(|number| class.number(number));
+            format!("{first}–{last}")
         });
         let areas = areas.collect::<Vec<_>>().join(", ");
         out.push(
             codes::DOUBTFUL_DEVICE
-                .at(span, format!("{names}: not every {title} has such devices"))
+                .at(
+                    span,
+                    phrase!("{names}: not every {title} has such devices", names, title),
+                )
                 .label("the first of them")
-                .help(format!(
-                    "some stop at programs with {areas}; use lower numbers, or try it on the board"
+                .help(phrase!(
+                    "some stop at programs with {areas}; use lower numbers, or try it on the board",
+                    areas
                 )),
         );
     }

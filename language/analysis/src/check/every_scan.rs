@@ -6,7 +6,7 @@ use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
 use crate::accesses::{self, Access};
 use rungc_catalogue::{Form, Forms, Neutral, Repeat, Shape};
-use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Operand, OperandKind, codes};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Operand, OperandKind, codes, phrase};
 use std::collections::BTreeMap;
 
 /// Collects such instructions.
@@ -201,12 +201,18 @@ fn report(code: &Code, device: Device, changes: &[Change]) -> Option<Diagnostic>
     let (first, others) = changes.split_first()?;
     let mnemonic = &code.instr(first.at).mnemonic;
     let pulse = pulse_form(code, first.at)?;
-    let message =
-        format!("`{mnemonic}` changes `{device}` in every scan while its contacts are closed");
+    let message = phrase!(
+        "`{mnemonic}` changes `{device}` in every scan while its contacts are closed",
+        mnemonic,
+        device
+    );
     let mut diagnostic = codes::EVERY_SCAN
         .at(code.span(first.at), message)
         .label("runs in every scan")
-        .help(format!("`{pulse}` runs once each time its contacts close"));
+        .help(phrase!(
+            "`{pulse}` runs once each time its contacts close",
+            pulse
+        ));
     let mut fix = Fix::suggested("write the pulse form");
     for change in changes {
         if let Some(pulse) = pulse_form(code, change.at) {

@@ -8,7 +8,7 @@ use rungc_models::Model;
 use rungc_models::high_speed::{self, Kind};
 use rungc_models::interrupts::Source;
 use rungc_rt::{RtFn, Wiring};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, Phrase, codes, phrase};
 
 /// Checks who uses the fast inputs.
 pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
@@ -78,11 +78,14 @@ fn one_pointer_per_source(code: &Code, interrupts: &[Interrupt], out: &mut Diagn
             continue;
         };
         let message = match second.input {
-            Some(input) => format!(
-                "two interrupt routines use `{}` (rising and falling edge)",
-                DeviceClass::X.number(input)
+            Some(input) => phrase!(
+                "two interrupt routines use `{input}` (rising and falling edge)",
+                input = DeviceClass::X.number(input)
             ),
-            None => format!("timer interrupt I{} has two periods", second.number / 100),
+            None => phrase!(
+                "timer interrupt I{number} has two periods",
+                number = second.number / 100
+            ),
         };
         let diagnostic = codes::BOTH_EDGES
             .at(code.span(second.label), message)
@@ -140,9 +143,10 @@ fn without_input(code: &Code, out: &mut Diagnostics) {
         // If it does not exist at all, that is reported elsewhere.
         let fast = fast && code.model().has(device.class, device.number);
         if fast && counters.counter(device.number).is_none() {
-            let message = format!(
-                "`{device}` does not count an input of {}",
-                code.model().name
+            let message = phrase!(
+                "`{device}` does not count an input of {model}",
+                device,
+                model = code.model().name
             );
             let span = code
                 .instr(i)
@@ -166,7 +170,7 @@ pub(super) struct Other {
     /// `an interrupt`.
     name: &'static str,
     /// `requests an interrupt`.
-    does: &'static str,
+    here: fn() -> Phrase,
     pub(super) at: usize,
 }
 
@@ -176,7 +180,7 @@ fn others(code: &Code, interrupts: &[Interrupt]) -> Vec<Other> {
         Some(Other {
             input: interrupt.input?,
             name: INTERRUPT,
-            does: "requests an interrupt",
+            here: || phrase!("requests an interrupt here …"),
             at: interrupt.label,
         })
     });
@@ -201,7 +205,7 @@ fn caught(code: &Code) -> Vec<Other> {
             found.push(Other {
                 input,
                 name: "pulse catch",
-                does: "its pulses are caught",
+                here: || phrase!("its pulses are caught here …"),
                 at: i,
             });
         }
@@ -218,7 +222,7 @@ fn two_purposes(code: &Code, others: &[Other], out: &mut Diagnostics) {
             continue;
         };
         let input = DeviceClass::X.number(catch.input);
-        let message = format!("`{input}` serves both an interrupt and pulse catch");
+        let message = phrase!("`{input}` serves both an interrupt and pulse catch", input);
         let diagnostic = codes::MEASURED_INPUT
             .at(code.span(catch.at), message)
             .label("its pulses are caught here …")
@@ -235,13 +239,15 @@ fn inputs_shared(code: &Code, others: &[Other], counters: &[Counter], out: &mut 
             .filter(|counter| counter.inputs.contains(&other.input))
         {
             let input = DeviceClass::X.number(other.input);
-            let message = format!(
-                "`{input}` serves both {} and counter `C{}`",
-                other.name, counter.number
+            let message = phrase!(
+                "`{input}` serves both {other} and counter `C{number}`",
+                input,
+                other = other.name,
+                number = counter.number
             );
             let diagnostic = codes::INPUT_SHARED
                 .at(code.span(other.at), message)
-                .label(format!("{} here …", other.does))
+                .label((other.here)())
                 .other(code.span(counter.coil), "… and counts here");
             out.push(diagnostic);
         }
@@ -260,20 +266,30 @@ fn looked_at(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diag
         let counter = counters
             .iter()
             .find(|counter| !is_free && counter.inputs.contains(&input))
-            .map(|counter| (format!("counter `C{}`", counter.number), counter.coil));
+            .map(|counter| {
+                (
+                    phrase!("counter `C{number}`", number = counter.number),
+                    counter.coil,
+                )
+            });
         let other = others
             .iter()
             .find(|other| other.input == input)
-            .map(|other| (other.name.to_string(), other.at));
+            .map(|other| (other.name.into(), other.at));
         let spd = measures
             .iter()
             .find(|measured| n >= measures.len() && measured.1 == input)
-            .map(|measured| ("SPD".to_string(), measured.0));
+            .map(|measured| ("SPD".into(), measured.0));
         let (Some((name, at)), Some(inst)) = (counter.or(other).or(spd), code.inst(i)) else {
             continue;
         };
         let input = DeviceClass::X.number(input);
-        let message = format!("`{input}` serves both {} and {name}", inst.name);
+        let message = phrase!(
+            "`{input}` serves both {inst} and {name}",
+            input,
+            inst = inst.name,
+            name
+        );
         let diagnostic = codes::MEASURED_INPUT
             .at(code.span(i), message)
             .label("read here …")
@@ -346,9 +362,11 @@ fn counters_share(code: &Code, counters: &[Counter], out: &mut Diagnostics) {
                 continue;
             };
             let input = DeviceClass::X.number(input);
-            let message = format!(
-                "`C{}` and `C{}` both use `{input}`",
-                first.number, second.number
+            let message = phrase!(
+                "`C{number}` and `C{number2}` both use `{input}`",
+                number = first.number,
+                number2 = second.number,
+                input
             );
             let diagnostic = codes::COUNTERS_SHARE
                 .at(code.span(second.coil), message)
@@ -366,13 +384,13 @@ fn never_enabled(code: &Code, others: &[Other], interrupts: &[Interrupt], out: &
         return;
     }
     let routine = interrupts.first().map(|interrupt| {
-        let message = "this interrupt routine never runs: there is no EI".to_string();
+        let message = phrase!("this interrupt routine never runs: there is no EI");
         (interrupt.label, message)
     });
     let catch = others.iter().find(|other| other.name != INTERRUPT);
     let catch = catch.and_then(|catch| {
         let relay = code.device(catch.at, 0)?;
-        let message = format!("`{relay}` catches no pulse: there is no EI");
+        let message = phrase!("`{relay}` catches no pulse: there is no EI", relay);
         Some((catch.at, message))
     });
     for (at, message) in routine.into_iter().chain(catch) {

@@ -2,7 +2,7 @@
 
 use super::Code;
 use super::fast_inputs::{Counter, Other, measured};
-use rungc_syntax::{DeviceClass, Diagnostics, codes};
+use rungc_syntax::{DeviceClass, Diagnostics, codes, phrase};
 use std::collections::BTreeMap;
 
 /// Warns of a program that asks for more than there is.
@@ -28,10 +28,11 @@ pub(super) fn check(code: &Code, others: &[Other], counters: &[Counter], out: &m
         so_far > of.total
     });
     if let Some(&(at, _)) = beyond {
-        let message = format!(
-            "fast inputs and outputs take {asked} units of hardware, {} has {}",
-            code.model().name,
-            of.total
+        let message = phrase!(
+            "fast inputs and outputs take {asked} units of hardware, {model} has {total}",
+            asked,
+            model = code.model().name,
+            total = of.total
         );
         let diagnostic = codes::FAST_UNITS
             .at(code.span(at), message)

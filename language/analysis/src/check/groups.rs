@@ -3,7 +3,7 @@
 use super::Code;
 use rungc_catalogue::Lower;
 use rungc_rt::RtFn;
-use rungc_syntax::{Diagnostics, OperandKind, codes};
+use rungc_syntax::{Diagnostics, OperandKind, codes, phrase};
 
 /// The table of ABSD starts at a multiple of this.
 const ALIGNED: u32 = 8;
@@ -19,7 +19,10 @@ pub(super) fn check(code: &Code, i: usize, out: &mut Diagnostics) {
     if let OperandKind::Nibbles(_, device, None) = table.kind
         && device.number % ALIGNED != 0
     {
-        let message = format!("the table of ABSD starts at `{device}`, no multiple of 8");
+        let message = phrase!(
+            "the table of ABSD starts at `{device}`, no multiple of 8",
+            device
+        );
         let warning = codes::UNALIGNED_GROUP
             .at(table.span, message)
             .label("a PLC may reject it")

@@ -4,7 +4,7 @@ use super::Code;
 use super::overlaps::clears;
 use crate::accesses::Access;
 use rungc_catalogue::Lower;
-use rungc_syntax::{DeviceClass, Diagnostics, Span, codes};
+use rungc_syntax::{DeviceClass, Diagnostics, Span, codes, phrase};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// High-speed counters in a program.
@@ -58,7 +58,7 @@ impl IdleCounters {
                 continue;
             }
             let counter = DeviceClass::C.number(number);
-            let message = format!("nothing drives `{counter}`, so it never counts");
+            let message = phrase!("nothing drives `{counter}`, so it never counts", counter);
             let label = match acts {
                 true => "never acts",
                 false => "its value never changes",
@@ -66,8 +66,9 @@ impl IdleCounters {
             let diagnostic = codes::NEVER_COUNTS
                 .at(span, message)
                 .label(label)
-                .help(format!(
-                    "a high-speed counter counts while its coil is driven: `OUT {counter} K…`"
+                .help(phrase!(
+                    "a high-speed counter counts while its coil is driven: `OUT {counter} K…`",
+                    counter
                 ));
             out.push(diagnostic);
         }

@@ -2,7 +2,7 @@
 
 use super::Code;
 use rungc_models::runs::is_counter32;
-use rungc_syntax::{Diagnostics, OperandKind, codes};
+use rungc_syntax::{Diagnostics, OperandKind, codes, phrase};
 
 /// Warns of a 32-bit counter with an index on models where an index counts 16-bit words.
 pub(super) fn check(code: &Code, i: usize, out: &mut Diagnostics) {
@@ -13,11 +13,16 @@ pub(super) fn check(code: &Code, i: usize, out: &mut Diagnostics) {
         if let OperandKind::Device(device, Some(index)) = operand.kind
             && is_counter32(device.class, device.number)
         {
-            let message = format!("`{index}` counts the words of `{device}`, not counters");
+            let message = phrase!(
+                "`{index}` counts the words of `{device}`, not counters",
+                index,
+                device
+            );
             let warning = codes::INDEXED_COUNTER
                 .at(operand.span, message)
-                .label(format!(
-                    "1 leads to the high word of `{device}`, 2 to the next counter"
+                .label(phrase!(
+                    "1 leads to the high word of `{device}`, 2 to the next counter",
+                    device
                 ))
                 .help("copy the counters to data registers, and index these");
             out.push(warning);

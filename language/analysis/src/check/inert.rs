@@ -9,7 +9,7 @@ use rungc_models::Model;
 use rungc_models::runs::is_special;
 use rungc_models::special::{self, Missed, Reason, Special, Status};
 use rungc_rt::modules::{KINDS, Kind, Place};
-use rungc_syntax::{Device, Diagnostic, Diagnostics, Span, codes};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, Phrase, Span, codes, phrase};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A longer run of devices is cleared or copied as a whole; it does not set up one of them.
@@ -155,12 +155,16 @@ fn report(model: &Model, reason: Reason, devices: &[(Device, Used)]) -> Option<D
         .iter()
         .map(|(device, _)| format!("`{device}`"))
         .collect();
-    let (subject, verb) = match (names.as_slice(), first.changed) {
-        ([one], true) => (one.clone(), "has no effect"),
-        ([one], false) => (one.clone(), "never changes"),
-        (many, _) => (listed(many), "have no effect"),
+    let why = reason.text;
+    let message = match (names.as_slice(), first.changed) {
+        ([one], true) => phrase!("{one} has no effect in a compiled program: {why}", one, why),
+        ([one], false) => phrase!("{one} never changes in a compiled program: {why}", one, why),
+        (many, _) => phrase!(
+            "{all} have no effect in a compiled program: {why}",
+            all = listed(many),
+            why
+        ),
     };
-    let message = format!("{subject} {verb} in a compiled program: {}", reason.text);
     let mut diagnostic = codes::INERT_DEVICE
         .at(span, message)
         .label(first.row.meaning(named.number));
@@ -169,14 +173,19 @@ fn report(model: &Model, reason: Reason, devices: &[(Device, Used)]) -> Option<D
     }
     for (n, (device, used)) in devices.iter().enumerate() {
         for (m, &(span, written)) in used.places.iter().enumerate() {
-            let what = if written { "written" } else { "read" };
             diagnostic = match (n, m) {
                 (0, 0) => diagnostic,
                 (_, 0) => diagnostic.other(
                     span,
-                    format!("`{device}`: {}", used.row.meaning(device.number)),
+                    format!(
+                        "`{device}`: {number}",
+                        number = used.row.meaning(device.number)
+                    ),
                 ),
-                _ => diagnostic.other(span, format!("`{device}` is {what} here")),
+                _ if written => {
+                    diagnostic.other(span, phrase!("`{device}` is written here", device))
+                }
+                _ => diagnostic.other(span, phrase!("`{device}` is read here", device)),
             };
         }
     }
@@ -184,7 +193,7 @@ fn report(model: &Model, reason: Reason, devices: &[(Device, Used)]) -> Option<D
 }
 
 /// The modules of the settings that make the devices work, if there are any; else it is up to the host.
-fn help(model: &Model, devices: &[(Device, Used)]) -> String {
+fn help(model: &Model, devices: &[(Device, Used)]) -> Phrase {
     let mut names = BTreeSet::new();
     for (_, used) in devices {
         let fits = |kind: &&Kind| match used.row.status {
@@ -198,24 +207,28 @@ fn help(model: &Model, devices: &[(Device, Used)]) -> String {
     }
     let names: Vec<_> = names.into_iter().map(|name| format!("`{name}`")).collect();
     match names.as_slice() {
-        [] => "the host that runs the program must do what it does on the PLC".to_owned(),
-        [one] => format!("add a `[[module]]` with the kind {one} to rungc.toml"),
-        many => format!(
-            "add a `[[module]]` with its kind to rungc.toml: one of {}",
-            listed(many)
+        [] => phrase!("the host that runs the program must do what it does on the PLC"),
+        [one] => phrase!("add a `[[module]]` with the kind {one} to rungc.toml", one),
+        many => phrase!(
+            "add a `[[module]]` with its kind to rungc.toml: one of {many}",
+            many = listed(many)
         ),
     }
 }
 
 /// Names in a row: all of them, if there are not too many.
-fn listed(names: &[String]) -> String {
+fn listed(names: &[String]) -> Phrase {
     match names {
         [most @ .., last] if names.len() <= MAX_NAMED => {
-            format!("{} and {last}", most.join(", "))
+            phrase!("{most} and {last}", most = most.join(", "), last)
         }
         _ => {
             let (named, rest) = names.split_at(MAX_NAMED - 1);
-            format!("{} and {} more", named.join(", "), rest.len())
+            phrase!(
+                "{named} and {rest} more",
+                named = named.join(", "),
+                rest = rest.len()
+            )
         }
     }
 }

@@ -5,7 +5,7 @@ use super::pointers::{Pointer, Pointers};
 use super::structure::{Nesting, Routine};
 use super::{Code, Part};
 use rungc_catalogue::Basic;
-use rungc_syntax::{Diagnostics, codes};
+use rungc_syntax::{Diagnostics, codes, phrase};
 
 /// Collects what jumps without a condition make useless.
 #[derive(Default)]
@@ -75,7 +75,7 @@ impl JumpedOver {
         let last = skipped.next_back().unwrap_or(first);
         let diagnostic = codes::JUMPED_OVER
             .at(code.span(first), "these instructions never run")
-            .label(format!("not run, up to `{}`", code.instr(last)))
+            .label(phrase!("not run, up to `{last}`", last = code.instr(last)))
             .other(
                 code.span(jump),
                 "this jump has no condition that could be off",

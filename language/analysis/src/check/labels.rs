@@ -3,7 +3,9 @@
 use super::pointers::{Pointer, Pointers};
 use super::structure::{NONE, Nesting, Routine};
 use super::{Basic, Code};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Fix, Operand, OperandKind, Span, codes};
+use rungc_syntax::{
+    Device, DeviceClass, Diagnostics, Fix, Operand, OperandKind, Span, codes, phrase,
+};
 use rustc_hash::FxHashMap;
 
 /// Checks all pointers of a program.
@@ -46,7 +48,10 @@ fn defined_once(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagno
     };
     for &second in again {
         let diagnostic = codes::LABEL_TWICE
-            .at(code.span(second), format!("`{device}` is defined twice"))
+            .at(
+                code.span(second),
+                phrase!("`{device}` is defined twice", device),
+            )
             .label("defined again here")
             .other(code.span(first), "first defined here")
             .help("delete one of the two, or give it another number");
@@ -81,7 +86,7 @@ fn used_one_way(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagno
         let diagnostic = codes::JUMPED_AND_CALLED
             .at(
                 code.span(jump.max(call)),
-                format!("`{device}` is both jumped to and called"),
+                phrase!("`{device}` is both jumped to and called", device),
             )
             .label(if jump > call {
                 "jumped to here"
@@ -112,11 +117,12 @@ fn missing(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnostics
         let diagnostic = codes::NO_LABEL
             .at(
                 named_at(code, i, device),
-                format!("label `{device}` does not exist"),
+                phrase!("label `{device}` does not exist", device),
             )
             .label("leads nowhere")
-            .help(format!(
-                "put the line `{device}` where the jump or call should go"
+            .help(phrase!(
+                "put the line `{device}` where the jump or call should go",
+                device
             ));
         out.push(diagnostic);
     }
@@ -127,11 +133,12 @@ fn no_routine(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnost
         let diagnostic = codes::NO_ROUTINE
             .at(
                 named_at(code, i, device),
-                format!("interrupt routine `{device}` does not exist"),
+                phrase!("interrupt routine `{device}` does not exist", device),
             )
             .label("nothing to run")
-            .help(format!(
-                "put the routine `{device}` after FEND, with IRET at its end"
+            .help(phrase!(
+                "put the routine `{device}` after FEND, with IRET at its end",
+                device
             ));
         out.push(diagnostic);
     }
@@ -149,7 +156,7 @@ fn unused(code: &Code, device: Device, pointer: &Pointer, label: usize, out: &mu
         let diagnostic = codes::UNUSED_LABEL
             .at(
                 code.span(label),
-                format!("nothing jumps to `{device}` or calls it"),
+                phrase!("nothing jumps to `{device}` or calls it", device),
             )
             .label("not used")
             .help("delete the label, or name it in the CJ or CALL that should lead here");
@@ -249,12 +256,22 @@ impl Calls {
             let diagnostic = match always {
                 true => codes::DEEP_CALL.at(
                     code.span(beyond),
-                    format!("calls nest {depth} deep, but {name} allows {max}"),
+                    phrase!(
+                        "calls nest {depth} deep, but {name} allows {max}",
+                        depth,
+                        name,
+                        max
+                    ),
                 ),
                 false => codes::MAY_CALL_DEEP
                     .at(
                         code.span(beyond),
-                        format!("calls may nest {depth} deep, but {name} allows {max}"),
+                        phrase!(
+                            "calls may nest {depth} deep, but {name} allows {max}",
+                            depth,
+                            name,
+                            max
+                        ),
                     )
                     .help("a call that is too deep is skipped with error 6702 when it is reached"),
             };

@@ -5,7 +5,7 @@ use crate::accesses;
 use rungc_catalogue::{Lower, Role};
 use rungc_rt::modules::{self, Access, Kind, Place};
 use rungc_rt::{RtFn, Transfer};
-use rungc_syntax::{Diagnostics, OperandKind, Span, codes};
+use rungc_syntax::{Diagnostics, OperandKind, Span, codes, phrase};
 use std::ops::Range;
 
 /// The modules of a PLC.
@@ -78,14 +78,17 @@ impl Modules {
             .iter()
             .find(|(unit, _)| words.unit == i64::from(*unit));
         let Some((unit, kind)) = fitted else {
-            let message = format!("no module has the number {}", words.unit);
+            let message = phrase!("no module has the number {unit}", unit = words.unit);
             let listed = self.0.iter();
             let listed = listed.map(|(unit, kind)| match modules::name(*unit) {
                 Some(name) => format!("{name} ({})", kind.name),
                 None => format!("{unit} ({})", kind.name),
             });
             let listed: Vec<_> = listed.collect();
-            let help = format!("`[[module]]` in rungc.toml lists {}", listed.join(", "));
+            let help = phrase!(
+                "`[[module]]` in rungc.toml lists {listed}",
+                listed = listed.join(", ")
+            );
             out.push(codes::NO_MODULE.at(words.unit_span, message).help(help));
             return;
         };
@@ -100,8 +103,13 @@ impl Modules {
             match bfm {
                 Some(bfm) if words.written && bfm.access == Access::Read => {
                     let what = bfm.role.meaning();
-                    let message =
-                        format!("BFM {number} of {name} (module {unit}) can only be read: {what}");
+                    let message = phrase!(
+                        "BFM {number} of {name} (module {unit}) can only be read: {what}",
+                        number,
+                        name,
+                        unit,
+                        what
+                    );
                     out.push(
                         codes::READ_ONLY_WORD
                             .at(span, message)
@@ -110,14 +118,24 @@ impl Modules {
                     return;
                 }
                 None if number > i64::from(last) => {
-                    let message = format!("{name} (module {unit}) has no BFM {number}");
-                    let help = format!("its last one is {last}");
+                    let message = phrase!(
+                        "{name} (module {unit}) has no BFM {number}",
+                        name,
+                        unit,
+                        number
+                    );
+                    let help = phrase!("its last one is {last}", last);
                     out.push(codes::NO_BUFFER_WORD.at(span, message).help(help));
                     return;
                 }
                 // Reserved words among others of a longer transfer do no harm.
                 None if run.end - run.start == 1 => {
-                    let message = format!("BFM {number} of {name} (module {unit}) is reserved");
+                    let message = phrase!(
+                        "BFM {number} of {name} (module {unit}) is reserved",
+                        number,
+                        name,
+                        unit
+                    );
                     out.push(codes::NO_BUFFER_WORD.at(span, message).label("reads as 0"));
                     return;
                 }

@@ -5,10 +5,11 @@ use super::overlaps::clears;
 use super::pointers::Pointers;
 use super::ports::may_be_written;
 use crate::accesses::Access;
+use crate::resolve::suggest::any_of;
 use rungc_catalogue::Basic;
 use rungc_models::interrupts::{Capture, Gate, Source};
 use rungc_rt::{EdgeKind, Register, Relay};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Phrase, codes, phrase};
 
 /// Programs that reach special devices through an index stay this near.
 const USUAL_INDEX: u32 = 256;
@@ -32,7 +33,7 @@ pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
         let mut diagnostic = codes::NEVER_REQUESTED
             .at(
                 code.span(label),
-                format!("`{device}` never runs: {}", reason.why),
+                phrase!("`{device}` never runs: {why}", device, why = reason.why),
             )
             .label("this interrupt routine")
             .help(reason.help);
@@ -46,14 +47,14 @@ pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
 /// Reason for which a routine never runs.
 struct Reason {
     /// The second half of the message.
-    why: String,
-    help: String,
+    why: Phrase,
+    help: Phrase,
     /// What the program writes instead, and where.
-    writes: Vec<(usize, String)>,
+    writes: Vec<(usize, Phrase)>,
 }
 
 impl Reason {
-    fn new(why: String, help: String) -> Self {
+    fn new(why: Phrase, help: Phrase) -> Self {
         let writes = Vec::new();
         Reason { why, help, writes }
     }
@@ -79,16 +80,22 @@ fn reason(code: &Code, number: u32, named: bool) -> Option<Reason> {
     match source {
         None => request.map(|relay| {
             Reason::new(
-                format!(
-                    "nothing switches `M{}` on, which requests it",
-                    relay.number()
+                phrase!(
+                    "nothing switches `M{number}` on, which requests it",
+                    number = relay.number()
                 ),
-                format!("add `SET M{}` where it should run", relay.number()),
+                phrase!(
+                    "add `SET M{number}` where it should run",
+                    number = relay.number()
+                ),
             )
         }),
         Some(Source::Comparison { .. }) => Some(Reason::new(
-            "no comparison of a high-speed counter names it".to_string(),
-            format!("name it as the target of one, as in `DHSCS K100 C235 I{number:03}`"),
+            phrase!("no comparison of a high-speed counter names it"),
+            phrase!(
+                "name it as the target of one, as in `DHSCS K100 C235 {pointer}`",
+                pointer = format!("I{number:03}")
+            ),
         )),
         Some(Source::Input { number, kind }) => excluded(code, number, kind),
         _ => None,
@@ -105,15 +112,21 @@ fn forbidden(code: &Code, gate: Gate) -> Option<Reason> {
         Gate::Forbids(relay) if default(relay) && !may_switch(code, relay, false) => {
             let mask = relay.number();
             Some(Reason::new(
-                format!("`M{mask}`, which is on at power-on, forbids it"),
-                format!("add `RST M{mask}` where it may run, for example under M8002"),
+                phrase!("`M{mask}`, which is on at power-on, forbids it", mask),
+                phrase!(
+                    "add `RST M{mask}` where it may run, for example under M8002",
+                    mask
+                ),
             ))
         }
         Gate::Allows(relay) if !default(relay) && !may_switch(code, relay, true) => {
             let relay = relay.number();
             Some(Reason::new(
-                format!("nothing switches `M{relay}` on, which allows it"),
-                format!("add `SET M{relay}` where it may run, for example under M8002"),
+                phrase!("nothing switches `M{relay}` on, which allows it", relay),
+                phrase!(
+                    "add `SET M{relay}` where it may run, for example under M8002",
+                    relay
+                ),
             ))
         }
         _ => None,
@@ -140,19 +153,35 @@ fn excluded(code: &Code, input: u32, kind: EdgeKind) -> Option<Reason> {
     let input = DeviceClass::X.number(input);
     let n = register.number();
     let power_on = settings.iter().find(|(_, writer)| writer.is_none());
-    let left = power_on.map(|(value, _)| format!(", which is H{value:02X} at power-on,"));
+    let left = power_on.map(|(value, _)| {
+        phrase!(
+            ", which is H{value} at power-on,",
+            value = format!("{value:02X}")
+        )
+    });
     let values: Vec<_> = capture.modes().filter(|&value| lets(value)).collect();
     let values: Vec<_> = values.iter().map(|value| format!("H{value:02X}")).collect();
     let writes = settings.iter().filter_map(|&(value, writer)| {
-        let note = format!("`D{n}` becomes H{value:02X} here");
+        let note = phrase!(
+            "`D{n}` becomes H{value} here",
+            n,
+            value = format!("{value:02X}")
+        );
         Some((writer?, note))
     });
     Some(Reason {
-        why: format!(
-            "`D{n}`{} excludes the {edge} edge of `{input}`",
-            left.unwrap_or_default()
+        why: phrase!(
+            "`D{n}`{left} excludes the {edge} edge of `{input}`",
+            n,
+            left = left.unwrap_or_default(),
+            edge,
+            input
         ),
-        help: format!("write {} to `D{n}` in the first scan", values.join(" or ")),
+        help: phrase!(
+            "write {values} to `D{n}` in the first scan",
+            values = any_of(&values),
+            n
+        ),
         writes: writes.collect(),
     })
 }

@@ -1,7 +1,7 @@
 //! Instructions that a program may hold only so often: as their rows say, and with some operands.
 
 use super::Code;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, codes, phrase};
 use std::collections::BTreeMap;
 
 /// An instruction that may occur only once in a program with some operand.
@@ -98,14 +98,16 @@ fn report(
     let (Some(&first), Some(&beyond)) = (places.first(), places.get(max)) else {
         return;
     };
-    let with = device.map_or_else(String::new, |device| format!(" with `{device}`"));
+    let with = device.map_or_else(|| "".into(), |device| phrase!(" with `{device}`", device));
     let often = match max {
-        1 => "once".to_owned(),
-        n => format!("{n} times"),
+        1 => phrase!("once"),
+        n => phrase!("{n} times", n),
     };
-    let message = format!(
-        "`{}`{with} may be used only {often} in a program",
-        code.instr(beyond).mnemonic
+    let message = phrase!(
+        "`{mnemonic}`{with} may be used only {often} in a program",
+        mnemonic = code.instr(beyond).mnemonic,
+        with,
+        often
     );
     let diagnostic = codes::TOO_OFTEN
         .at(code.span(beyond), message)

@@ -5,7 +5,7 @@ use super::drives::{Drive, Lasts};
 use super::skips::Skips;
 use super::structure::{Nesting, Routine};
 use rungc_catalogue::{Comparison, Lower, Param};
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes, phrase};
 use rustc_hash::FxHashMap;
 
 /// Conditions under which an instruction runs: its routine, its state and the jumps over it.
@@ -94,7 +94,7 @@ impl Outputs {
     /// give pulses and their direction.
     pub(super) fn report(self, code: &Code, out: &mut Diagnostics) {
         for (i, output) in self.own_direction {
-            let message = format!("`{output}` sends pulses and gives their direction");
+            let message = phrase!("`{output}` sends pulses and gives their direction", output);
             let diagnostic = codes::ONE_OUTPUT
                 .at(code.span(i), message)
                 .help("give the direction by an output that sends no pulses");
@@ -146,22 +146,28 @@ impl Resource {
         let (finding, message, label) = match self {
             Resource::Output(output) => (
                 &codes::ONE_OUTPUT,
-                format!("two instructions send pulses through `{output}` at the same time"),
+                phrase!(
+                    "two instructions send pulses through `{output}` at the same time",
+                    output
+                ),
                 "finds the output in use",
             ),
             Resource::Axis(axis) => (
                 &codes::ONE_OUTPUT,
-                format!("two instructions move axis {axis} at the same time"),
+                phrase!("two instructions move axis {axis} at the same time", axis),
                 "finds the axis in use",
             ),
             Resource::Tables => (
                 &codes::ONE_OUTPUT,
-                "two instructions make tables at the same time".to_owned(),
+                phrase!("two instructions make tables at the same time"),
                 "is ignored while the other is driven",
             ),
             Resource::Zone(zone) => (
                 &codes::ZONE_SHARED,
-                format!("two comparisons use compare zone {zone} at the same time"),
+                phrase!(
+                    "two comparisons use compare zone {zone} at the same time",
+                    zone
+                ),
                 "finds the zone in use",
             ),
         };

@@ -2,7 +2,7 @@
 
 use super::Code;
 use rungc_catalogue::{ArithOp, Lower, Rule, Shape};
-use rungc_syntax::{DeviceClass, Diagnostics, Fix, Operand, OperandKind, codes};
+use rungc_syntax::{DeviceClass, Diagnostics, Fix, Operand, OperandKind, Phrase, codes, phrase};
 
 /// Checks the constants of instruction `i`.
 pub(super) fn check(code: &Code, i: usize, out: &mut Diagnostics) {
@@ -35,8 +35,10 @@ fn by_zero(code: &Code, i: usize, fails: bool, out: &mut Diagnostics) {
         return;
     }
     let mnemonic = &code.instr(i).mnemonic;
-    let diagnostic =
-        codes::DIVISION_BY_ZERO.at(divisor.span, format!("`{mnemonic}` divides by zero"));
+    let diagnostic = codes::DIVISION_BY_ZERO.at(
+        divisor.span,
+        phrase!("`{mnemonic}` divides by zero", mnemonic),
+    );
     out.push(match fails {
         true => {
             diagnostic.label("an operation error each time this runs; the result does not change")
@@ -56,7 +58,11 @@ fn failing_constants(code: &Code, i: usize, out: &mut Diagnostics) {
         else {
             continue;
         };
-        let message = format!("`{}` always fails with `{}`", instr.mnemonic, operand.kind);
+        let message = phrase!(
+            "`{mnemonic}` always fails with `{kind}`",
+            mnemonic = instr.mnemonic,
+            kind = operand.kind
+        );
         out.push(
             codes::CONSTANT_FAILS
                 .at(operand.span, message)
@@ -79,31 +85,34 @@ fn effect(code: &Code, i: usize) -> &'static str {
 }
 
 /// The constants that work, if this one breaks the rule.
-fn broken(rule: &Rule, operand: &Operand, all: &[Operand]) -> Option<String> {
+fn broken(rule: &Rule, operand: &Operand, all: &[Operand]) -> Option<Phrase> {
     let value = number(&operand.kind)?;
     let (breaks, works) = match *rule {
-        Rule::WorksWith(min, i64::MAX) => (value < min as f64, format!("use {min} or more")),
+        Rule::WorksWith(min, i64::MAX) => (value < min as f64, phrase!("use {min} or more", min)),
         Rule::WorksWith(min, max) => (
             value < min as f64 || value > max as f64,
-            format!("use a constant from {min} to {max}"),
+            phrase!("use a constant from {min} to {max}", min, max),
         ),
         Rule::WorksAbove(bound) => (
             value <= bound as f64,
-            format!("use a constant above {bound}"),
+            phrase!("use a constant above {bound}", bound),
         ),
         Rule::WordWorksTo(at, max) => {
             let word = !matches!(all.get(at)?.kind, OperandKind::Device(device, _) if is_bit(device.class));
             (
                 word && value > max as f64,
-                format!("use at most {max} with a word"),
+                phrase!("use at most {max} with a word", max),
             )
         }
         Rule::WorksFrom(at) => {
             let other = all.get(at)?;
             let least = number(&other.kind)?;
-            (value < least, format!("use `{}` or more", other.kind))
+            (
+                value < least,
+                phrase!("use `{kind}` or more", kind = other.kind),
+            )
         }
-        Rule::WorksIf(works, when) => (!works(all), format!("it works if {when}")),
+        Rule::WorksIf(works, when) => (!works(all), phrase!("it works if {when}", when)),
         _ => return None,
     };
     breaks.then_some(works)
@@ -136,9 +145,17 @@ fn reversed(code: &Code, i: usize, out: &mut Diagnostics) {
     let mnemonic = &code.instr(i).mnemonic;
     let places = &code.instr(i).operands;
     let diagnostic = codes::REVERSED_RANGE
-        .at(code.span(i), format!("`{mnemonic}` resets `{first}` alone"))
+        .at(
+            code.span(i),
+            phrase!("`{mnemonic}` resets `{first}` alone", mnemonic, first),
+        )
         .label("the first device of the range comes after the last")
-        .help(format!("write `{mnemonic} {last} {first}`"))
+        .help(phrase!(
+            "write `{mnemonic} {last} {first}`",
+            mnemonic,
+            last,
+            first
+        ))
         .fix(
             Fix::suggested("swap the operands")
                 .replace(places[0].span, last.to_string())

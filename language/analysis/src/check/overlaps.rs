@@ -7,7 +7,7 @@ use super::{Code, Part as Place};
 use crate::accesses::Access;
 use rungc_catalogue::{ArithOp, Basic, Lower, Role};
 use rungc_models::runs::is_special;
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Span, codes, phrase};
 use rustc_hash::FxHashMap;
 
 /// A result of several words: 32 bits, a double result, a quotient with its remainder.
@@ -228,18 +228,36 @@ fn overwritten(
     let writer = &code.instr(result.at).mnemonic;
     let message = match part == first {
         true => {
-            format!("`{mnemonic}` writes one half of the 32-bit value in `{first}` and `{last}`")
+            phrase!(
+                "`{mnemonic}` writes one half of the 32-bit value in `{first}` and `{last}`",
+                mnemonic,
+                first,
+                last
+            )
         }
-        false => format!(
-            "`{mnemonic}` writes `{part}`, which is part of the result of `{writer}` at `{first}`"
+        false => phrase!(
+            "`{mnemonic}` writes `{part}`, which is part of the result of `{writer}` at `{first}`",
+            mnemonic,
+            part,
+            writer,
+            first
         ),
     };
     codes::PARTS_OVERLAP
         .at(span, message)
-        .label(format!("overwrites part of `{first}` to `{last}`"))
+        .label(phrase!(
+            "overwrites part of `{first}` to `{last}`",
+            first,
+            last
+        ))
         .other(
             result.span,
-            format!("`{writer}` writes `{first}` to `{last}`"),
+            phrase!(
+                "`{writer}` writes `{first}` to `{last}`",
+                writer,
+                first,
+                last
+            ),
         )
         .help("use separate registers for each value")
 }

@@ -2,7 +2,7 @@
 
 use crate::accesses::Access;
 use rungc_models::runs::is_special;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes, phrase};
 use rustc_hash::FxHashMap;
 
 /// The 32-bit values of a program, by their first registers.
@@ -47,11 +47,18 @@ impl Pairs {
             else {
                 continue;
             };
-            let message = format!("the 32-bit values at `{device}` and `{next}` share `{next}`");
+            let message = phrase!(
+                "the 32-bit values at `{device}` and `{next}` share `{next}`",
+                device,
+                next
+            );
             let diagnostic = codes::PAIRS_OVERLAP
                 .at(other.span, message)
-                .label(format!("this is `{next}` and the next register"))
-                .other(pair.span, format!("this is `{device}` and `{next}`"))
+                .label(phrase!("this is `{next}` and the next register", next))
+                .other(
+                    pair.span,
+                    phrase!("this is `{device}` and `{next}`", device, next),
+                )
                 .help("leave one register between the two values");
             found.push(diagnostic);
         }

@@ -2,7 +2,7 @@
 
 use super::Code;
 use crate::accesses::Access;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes, phrase};
 use std::collections::BTreeMap;
 
 /// A longer run of registers is cleared or copied as a whole; it does not mean one of them.
@@ -45,8 +45,17 @@ impl Reserved {
         };
         let title = code.model().title;
         let message = match others.len() {
-            0 => format!("`{first}` is reserved for the system of {title}"),
-            n => format!("`{first}` and {n} more registers are reserved for the system of {title}"),
+            0 => phrase!(
+                "`{first}` is reserved for the system of {title}",
+                first,
+                title
+            ),
+            n => phrase!(
+                "`{first}` and {n} more registers are reserved for the system of {title}",
+                first,
+                n,
+                title
+            ),
         };
         let mut diagnostic = codes::RESERVED_REGISTER
             .at(span, message)
@@ -56,7 +65,7 @@ impl Reserved {
             diagnostic = diagnostic.devices(written.iter().map(|&(register, _)| register));
         }
         for (register, span) in others {
-            diagnostic = diagnostic.other(*span, format!("`{register}` written here"));
+            diagnostic = diagnostic.other(*span, phrase!("`{register}` written here", register));
         }
         out.push(diagnostic);
     }

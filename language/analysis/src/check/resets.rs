@@ -1,12 +1,12 @@
 //! Counters and accumulating timers that act once, and outputs that stay on, because nothing resets them.
 
 use super::Code;
-use super::unused::fine_if;
+use super::unused::{Outside, fine_if};
 use crate::accesses::Access;
 use rungc_catalogue::{Basic, Drive};
 use rungc_models::Model;
 use rungc_syntax::codes::Code as Finding;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Phrase, Span, codes, phrase};
 use rustc_hash::FxHashMap;
 
 /// Relays that clear whole areas: M8031 and M8032.
@@ -108,31 +108,65 @@ impl Resets {
         let counters = never(DeviceClass::C)
             .into_iter()
             .filter(|(_, device, known)| known.looked_at && device.number < FIRST_BOTH_WAYS);
-        let words = ["reaches its preset once and is never reset", "counts here"];
-        summary(&codes::NEVER_RESET, words, counters, out);
+        summary(&COUNTERS, counters, out);
         let accumulates = |timer| model.timer(timer).is_some_and(|kind| kind.accumulating);
         let timers = never(DeviceClass::T)
             .into_iter()
             .filter(|(_, device, known)| known.looked_at && accumulates(device.number));
-        let words = [
-            "reaches its preset once and is never reset",
-            "measures here",
-        ];
-        summary(&codes::NEVER_RESET, words, timers, out);
-        let words = ["is set and never reset", "set here"];
-        summary(
-            &codes::NEVER_SWITCHED_OFF,
-            words,
-            never(DeviceClass::Y),
-            out,
-        );
+        summary(&TIMERS, timers, out);
+        summary(&OUTPUTS, never(DeviceClass::Y), out);
     }
 }
 
+/// Devices that nothing resets, and what is said of them.
+struct Stuck {
+    code: &'static Finding,
+    /// Of the first device.
+    message: fn(Device) -> Phrase,
+    /// At the place of the first device, or of this one.
+    here: fn(Option<Device>) -> Phrase,
+}
+
+static COUNTERS: Stuck = Stuck {
+    code: &codes::NEVER_RESET,
+    message: |first| {
+        phrase!(
+            "`{first}` reaches its preset once and is never reset",
+            first
+        )
+    },
+    here: |device| match device {
+        None => phrase!("counts here"),
+        Some(device) => phrase!("`{device}` counts here", device),
+    },
+};
+
+static TIMERS: Stuck = Stuck {
+    code: &codes::NEVER_RESET,
+    message: |first| {
+        phrase!(
+            "`{first}` reaches its preset once and is never reset",
+            first
+        )
+    },
+    here: |device| match device {
+        None => phrase!("measures here"),
+        Some(device) => phrase!("`{device}` measures here", device),
+    },
+};
+
+static OUTPUTS: Stuck = Stuck {
+    code: &codes::NEVER_SWITCHED_OFF,
+    message: |first| phrase!("`{first}` is set and never reset", first),
+    here: |device| match device {
+        None => phrase!("set here"),
+        Some(device) => phrase!("`{device}` set here", device),
+    },
+};
+
 /// One diagnostic for all devices of a kind.
 fn summary<'a>(
-    code: &'static Finding,
-    [what, here]: [&'static str; 2],
+    stuck: &'static Stuck,
     found: impl IntoIterator<Item = (Span, Device, &'a Known)>,
     out: &mut Diagnostics,
 ) {
@@ -141,20 +175,22 @@ fn summary<'a>(
         return;
     };
     let others: Vec<_> = found.collect();
+    let message = (stuck.message)(first);
     let message = match others.len() {
-        0 => format!("`{first}` {what}"),
-        n => format!("`{first}` {what}, and {n} more"),
+        0 => message,
+        n => phrase!("{message}, and {n} more", message, n),
     };
-    let mut diagnostic =
-        code.at(span, message)
-            .label(here)
-            .help(fine_if("resets", "writes", others.len() + 1));
+    let mut diagnostic = stuck
+        .code
+        .at(span, message)
+        .label((stuck.here)(None))
+        .help(fine_if(Outside::Resets, others.len() + 1));
     if !others.is_empty() {
         let all = std::iter::once(first).chain(others.iter().map(|&(_, device, _)| device));
         diagnostic = diagnostic.devices(all);
     }
     for (span, device, _) in others {
-        diagnostic = diagnostic.other(span, format!("`{device}` {here}"));
+        diagnostic = diagnostic.other(span, (stuck.here)(Some(device)));
     }
     out.push(diagnostic);
 }

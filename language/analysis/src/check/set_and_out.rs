@@ -4,7 +4,7 @@ use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
 use super::{Code, Part};
 use rungc_catalogue::Basic;
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes, phrase};
 use rustc_hash::FxHashMap;
 
 /// Positions at which a coil is written and its contact read.
@@ -122,8 +122,10 @@ fn in_vain(
     let (out, set) = (uses.set.iter().find_map(set_in_vain))
         .or_else(|| uses.rst.iter().find_map(reset_in_vain))?;
     let mnemonic = &code.instr(set).mnemonic;
-    let message = format!(
-        "`{mnemonic} {device}` does not last: `OUT {device}` writes the coil in every scan"
+    let message = phrase!(
+        "`{mnemonic} {device}` does not last: `OUT {device}` writes the coil in every scan",
+        mnemonic,
+        device
     );
     let mut diagnostic = codes::OUT_AND_SET
         .at(code.span(set), message)

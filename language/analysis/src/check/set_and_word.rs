@@ -5,7 +5,7 @@ use super::coils::{Coil, Place, Places, Reads, Where, add_words};
 use super::overlaps::clears;
 use super::structure::Routine;
 use rungc_catalogue::Basic;
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes, phrase};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Warns of SET and RST that such an instruction undoes before anything sees what they did.
@@ -68,8 +68,12 @@ fn in_vain(
     let (first, rest) = lost.split_first()?;
     let mnemonic = &code.instr(first.at).mnemonic;
     let writer = code.instr(last.at);
-    let message =
-        format!("`{mnemonic} {device}` does not last: `{writer}` writes the coil in every scan");
+    let message = phrase!(
+        "`{mnemonic} {device}` does not last: `{writer}` writes the coil in every scan",
+        mnemonic,
+        device,
+        writer
+    );
     let mut diagnostic = codes::OUT_AND_SET
         .at(code.span(first.at), message)
         .label("what this writes …")

@@ -7,7 +7,7 @@ use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
 use crate::accesses::{self, Access};
 use rungc_catalogue::Basic;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, codes, phrase};
 use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 
@@ -28,7 +28,10 @@ pub(super) fn check(
         return;
     }
     let mnemonic = &code.instr(i).mnemonic;
-    let message = format!("`{mnemonic}` is driven for one scan, but stops when its contacts open");
+    let message = phrase!(
+        "`{mnemonic}` is driven for one scan, but stops when its contacts open",
+        mnemonic
+    );
     let diagnostic = codes::SHORT_DRIVE
         .at(code.span(i), message)
         .label("starts, and stops in the next scan")

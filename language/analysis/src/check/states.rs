@@ -3,7 +3,7 @@
 use super::structure::{NONE, Nesting};
 use super::{Code, Part};
 use rungc_catalogue::Basic;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, codes, phrase};
 use rustc_hash::FxHashMap;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -36,7 +36,10 @@ fn stands_twice(code: &Code, out: &mut Diagnostics) {
             continue;
         };
         let diagnostic = codes::STATE_TWICE
-            .at(code.span(i), format!("the state `{state}` occurs twice"))
+            .at(
+                code.span(i),
+                phrase!("the state `{state}` occurs twice", state),
+            )
             .label("starts again here")
             .other(code.span(before), "first starts here")
             .help("give one of the two another number, or merge both into one section");
@@ -79,9 +82,11 @@ fn branches(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
         let mut transitions: Vec<_> = to.values().copied().collect();
         transitions.sort();
         if let (Some(&beyond), Some(&first)) = (transitions.get(MAX_BRANCH), transitions.first()) {
-            let message = format!(
-                "`{from}` branches into {} states, the PLC follows {MAX_BRANCH}",
-                transitions.len()
+            let message = phrase!(
+                "`{from}` branches into {transitions} states, the PLC follows {MAX_BRANCH}",
+                from,
+                transitions = transitions.len(),
+                MAX_BRANCH
             );
             let diagnostic = codes::STATE_BRANCHES
                 .at(code.span(beyond), message)
@@ -93,8 +98,11 @@ fn branches(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
     for initial in leads.keys().filter(|state| state.number <= LAST_INITIAL) {
         let (count, last) = flow_branches(&leads, *initial);
         if count > MAX_BRANCHES {
-            let message = format!(
-                "{count} circuits branch off in the flow of `{initial}`, but the PLC supports {MAX_BRANCHES}"
+            let message = phrase!(
+                "{count} circuits branch off in the flow of `{initial}`, but the PLC supports {MAX_BRANCHES}",
+                count,
+                initial,
+                MAX_BRANCHES
             );
             let diagnostic = codes::STATE_BRANCHES
                 .at(code.span(last), message)

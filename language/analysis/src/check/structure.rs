@@ -6,7 +6,7 @@ mod table;
 use super::Code;
 use super::pointers::Pointers;
 use rungc_catalogue::Basic;
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes, phrase};
 use table::{Kind, Verdict, crossing, inside};
 
 /// No instruction.
@@ -196,7 +196,7 @@ impl Walk<'_, '_> {
         };
         if !advanced {
             let name = &self.code.instr(i).mnemonic;
-            let message = format!("`{name}` outside an advanced interrupt");
+            let message = phrase!("`{name}` outside an advanced interrupt", name);
             let diagnostic = codes::LONE_RETURN
                 .at(self.code.span(i), message)
                 .label("routines of other interrupts end with IRET")
@@ -213,7 +213,7 @@ impl Walk<'_, '_> {
             return;
         };
         let name = &self.code.instr(i).mnemonic;
-        let message = format!("`{name}` goes into a loop");
+        let message = phrase!("`{name}` goes into a loop", name);
         let diagnostic = codes::INTO_LOOP
             .at(self.code.span(i), message)
             .label("the routine is left or entered here …")
@@ -254,7 +254,7 @@ impl Walk<'_, '_> {
             .map(|open| open.at);
         let reported = wrong.is_some();
         if let (Some(around), Some(level)) = (wrong, level) {
-            let message = format!("N{level} is not deeper than the zone around it");
+            let message = phrase!("N{level} is not deeper than the zone around it", level);
             let diagnostic = codes::MC_ORDER
                 .at(self.code.span(i), message)
                 .label("this zone is inside …")
@@ -277,7 +277,11 @@ impl Walk<'_, '_> {
         self.push(Kind::For, i);
         let max = self.code.model().max_for;
         if self.loops.len() as u32 == max + 1 {
-            let message = format!("loops nest {max} deep on {}", self.code.model().name);
+            let message = phrase!(
+                "loops nest {max} deep on {model}",
+                max,
+                model = self.code.model().name
+            );
             let outermost = self.loops[0] as usize;
             let diagnostic = codes::DEEP_FOR
                 .at(self.code.span(i), message)
@@ -347,7 +351,7 @@ impl Walk<'_, '_> {
         let mut reported = false;
         if !self.after_fend {
             reported = true;
-            let message = format!("this {} is in the main program", kind.name());
+            let message = phrase!("this {kind} is in the main program", kind = kind.name());
             let diagnostic = codes::ROUTINE_IN_MAIN
                 .at(self.code.span(i), message)
                 .label("starts before FEND")
@@ -381,17 +385,17 @@ impl Walk<'_, '_> {
             let level = level.unwrap_or_default();
             let other = self.open.iter().rev().find(|open| open.kind == Kind::Mc);
             let other = other.and_then(|open| Some((open.at, open.level?)));
-            let message = format!("no MC N{level} is open here");
+            let message = phrase!("no MC N{level} is open here", level);
             let diagnostic = codes::LONE_MCR.at(self.code.span(i), message);
             let diagnostic = match other {
                 Some((at, open)) => diagnostic
-                    .label(format!("ends N{level} …"))
-                    .other(self.code.span(at), format!("… but N{open} is open")),
+                    .label(phrase!("ends N{level} …", level))
+                    .other(self.code.span(at), phrase!("… but N{open} is open", open)),
                 None => diagnostic.label("there is nothing to end"),
             };
             let diagnostic = diagnostic.help(match other {
-                Some((_, open)) => format!("write `MCR N{open}`"),
-                None => "delete this MCR, or put MC where the zone starts".to_owned(),
+                Some((_, open)) => phrase!("write `MCR N{open}`", open),
+                None => phrase!("delete this MCR, or put MC where the zone starts"),
             });
             self.report(diagnostic);
             return;
@@ -452,12 +456,13 @@ impl Walk<'_, '_> {
         let diagnostic = codes::LONE_RETURN
             .at(
                 self.code.span(i),
-                format!("`{name}` ends no {}", kind.name()),
+                phrase!("`{name}` ends no {kind}", name, kind = kind.name()),
             )
             .label("no routine has started")
-            .help(format!(
-                "delete this {name}, or put the label of the {} before it",
-                kind.name()
+            .help(phrase!(
+                "delete this {name}, or put the label of the {kind} before it",
+                name,
+                kind = kind.name()
             ));
         let diagnostic = match kind {
             Kind::Sub if !self.after_fend => diagnostic.plc_error(6631),
@@ -522,27 +527,30 @@ impl Walk<'_, '_> {
             Kind::Sub => 6709,
             Kind::Interrupt => 6606,
         };
-        let (name, end) = (open.kind.name(), open.kind.end());
+        let end = open.kind.end();
         codes::FEND_INSIDE
             .at(
                 self.code.span(i),
-                format!("FEND inside a {name}").replace("a interrupt", "an interrupt"),
+                phrase!("FEND inside {one}", one = open.kind.one()),
             )
             .label("the main program ends here …")
             .other(
                 self.code.span(open.at),
-                format!("… but no {end} has closed this"),
+                phrase!("… but no {end} has closed this", end),
             )
-            .help(format!("put {end} before FEND"))
+            .help(phrase!("put {end} before FEND", end))
             .plc_error(plc_error)
     }
 
     fn open_routine(&self, open: &Open) -> Diagnostic {
         let (name, end) = (open.kind.name(), open.kind.end());
         codes::OPEN_ROUTINE
-            .at(self.code.span(open.at), format!("this {name} has no {end}"))
+            .at(
+                self.code.span(open.at),
+                phrase!("this {name} has no {end}", name, end),
+            )
             .label("starts here and never ends")
-            .help(format!("end it with {end}"))
+            .help(phrase!("end it with {end}", end))
     }
 
     /// Ends the structure at this place of the stack with instruction `i`, and judges those that it crosses or lies in.
@@ -590,11 +598,11 @@ impl Walk<'_, '_> {
                 Kind::Mc => {
                     let level = open
                         .level
-                        .map_or_else(String::new, |level| format!(" N{level}"));
+                        .map_or_else(|| "".into(), |level| format!(" N{level}"));
                     codes::OPEN_MC
-                        .at(span, format!("no MCR closes MC{level}"))
+                        .at(span, phrase!("no MCR closes MC{level}", level))
                         .label("starts here and never ends")
-                        .help(format!("end the zone with `MCR{level}`"))
+                        .help(phrase!("end the zone with `MCR{level}`", level))
                 }
                 Kind::For => codes::OPEN_FOR
                     .at(span, "no NEXT closes this FOR")
@@ -615,15 +623,15 @@ fn crossed(code: &Code, outer: &Open, inner: &Open, i: usize) -> Diagnostic {
     codes::CROSSED
         .at(
             code.span(i),
-            format!("the {outside} ends inside the {within}"),
+            phrase!("the {outside} ends inside the {within}", outside, within),
         )
-        .label(format!("ends the {outside} …"))
+        .label(phrase!("ends the {outside} …", outside))
         .other(code.span(outer.at), "… that starts here")
         .other(
             code.span(inner.at),
-            format!("but this {within} is still open"),
+            phrase!("but this {within} is still open", within),
         )
-        .help(format!("put the {} before this", inner.kind.end()))
+        .help(phrase!("put the {end} before this", end = inner.kind.end()))
         .plc_error(crossing(outer.kind, inner.kind))
 }
 
@@ -632,14 +640,22 @@ fn not_inside(code: &Code, outer: &Open, inner: &Open, plc_error: u16) -> Diagno
     codes::NOT_INSIDE
         .at(
             code.span(inner.at),
-            format!("a {within} is not allowed inside a {outside}")
-                .replace("a interrupt", "an interrupt"),
+            phrase!(
+                "{inner} is not allowed inside {outer}",
+                inner = inner.kind.one(),
+                outer = outer.kind.one()
+            ),
         )
-        .label(format!("this {within}"))
-        .other(code.span(outer.at), format!("is inside this {outside}"))
-        .help(format!(
-            "end the {outside} with {} before it, or move the {within} out",
-            outer.kind.end()
+        .label(phrase!("this {within}", within))
+        .other(
+            code.span(outer.at),
+            phrase!("is inside this {outside}", outside),
+        )
+        .help(phrase!(
+            "end the {outside} with {end} before it, or move the {within} out",
+            outside,
+            end = outer.kind.end(),
+            within
         ))
         .plc_error(plc_error)
 }

@@ -5,7 +5,7 @@ use super::calls::Calls;
 use super::structure::{NONE, Nesting, Routine};
 use rungc_catalogue::Basic;
 use rungc_models::{Model, Timers};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Phrase, codes, phrase};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
 
@@ -42,11 +42,15 @@ fn in_routines(code: &Code, nesting: &Nesting, calls: &Calls, out: &mut Diagnost
             continue;
         }
         let name = if subroutine {
-            "a subroutine"
+            phrase!("a subroutine")
         } else {
-            "an interrupt routine"
+            phrase!("an interrupt routine")
         };
-        let message = format!("`{device}` is updated only in scans that run {name}");
+        let message = phrase!(
+            "`{device}` is updated only in scans that run {name}",
+            device,
+            name
+        );
         let diagnostic = codes::TIMER_IN_ROUTINE
             .at(code.span(i), message)
             .label("measures incorrectly if not every scan does")
@@ -57,10 +61,10 @@ fn in_routines(code: &Code, nesting: &Nesting, calls: &Calls, out: &mut Diagnost
 
 /// What to do instead of driving a timer that counts units of this many milliseconds in a routine, and may keep its
 /// value.
-fn instead(model: &Model, unit_ms: u16, accumulating: bool, subroutine: bool) -> String {
+fn instead(model: &Model, unit_ms: u16, accumulating: bool, subroutine: bool) -> Phrase {
     let named = |timers: &Timers| {
         let [first, last] = [timers.first, timers.last].map(|n| DeviceClass::T.number(n));
-        format!("{first} to {last}")
+        phrase!("{first} to {last}", first, last)
     };
     let free = |accumulating| {
         let mut timers = model.timers.iter().filter(|t| t.kind.free_running);
@@ -68,32 +72,36 @@ fn instead(model: &Model, unit_ms: u16, accumulating: bool, subroutine: bool) ->
     };
     let (plain, fine) = (free(false), free(true));
     let Some(free) = plain.map(named) else {
-        let call = if subroutine {
-            ", or call the subroutine in every scan"
-        } else {
-            ""
+        return match subroutine {
+            true => phrase!("drive it in the main program, or call the subroutine in every scan"),
+            false => phrase!("drive it in the main program"),
         };
-        return format!("drive it in the main program{call}");
     };
     if let (true, Some(fine)) = (accumulating, fine) {
-        return format!(
-            "{} continue by themselves and keep their value until RST, too, but count 1 ms: convert a preset given in \
+        return phrase!(
+            "{fine} continue by themselves and keep their value until RST, too, but count 1 ms: convert a preset given in \
              {unit_ms} ms units",
-            named(fine)
+            fine = named(fine),
+            unit_ms
         );
     }
     if unit_ms == 100 {
-        return format!("{free} continue by themselves in scans that do not run their coils");
+        return phrase!(
+            "{free} continue by themselves in scans that do not run their coils",
+            free
+        );
     }
     let fine = fine.map(|timers| {
-        format!(
-            "; {} do so too: they count 1 ms and keep their value until RST",
-            named(timers)
+        phrase!(
+            "; {timers} do so too: they count 1 ms and keep their value until RST",
+            timers = named(timers)
         )
     });
-    format!(
-        "{free} continue by themselves, but count 100 ms: convert a preset given in {unit_ms} ms units{}",
-        fine.unwrap_or_default()
+    phrase!(
+        "{free} continue by themselves, but count 100 ms: convert a preset given in {unit_ms} ms units{fine}",
+        free,
+        unit_ms,
+        fine = fine.unwrap_or_default()
     )
 }
 
@@ -136,7 +144,12 @@ fn in_next_states(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
             let diagnostic = codes::TIMER_IN_NEXT_STATE
                 .at(
                     code.span(second),
-                    format!("`{timer}` is driven in `{state}` and in `{next}`, which follows it"),
+                    phrase!(
+                        "`{timer}` is driven in `{state}` and in `{next}`, which follows it",
+                        timer,
+                        state,
+                        next
+                    ),
                 )
                 .label("not cleared when this state starts")
                 .other(code.span(first), "driven here too")

@@ -5,8 +5,7 @@ use super::overlaps::clears;
 use crate::accesses::Access;
 use rungc_models::runs::is_special;
 use rungc_models::{Model, ModelId};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
-use std::borrow::Cow;
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Phrase, Span, codes, phrase};
 use std::collections::BTreeMap;
 
 /// A longer run of devices is cleared or copied as a whole; it does not mean one of them.
@@ -76,15 +75,27 @@ impl Undefined {
         let Some((&(first, place), others)) = used.split_first() else {
             return;
         };
-        let subject = match others.len() {
-            0 => format!("`{first}` has"),
-            n => format!("`{first}` and {n} more special devices have"),
+        let model_name = model.title;
+        let message = match others.len() {
+            0 => phrase!(
+                "`{first}` has no meaning on {model_name}",
+                first,
+                model_name
+            ),
+            n => phrase!(
+                "`{first}` and {n} more special devices have no meaning on {model_name}",
+                first,
+                n,
+                model_name
+            ),
         };
-        let message = format!("{subject} no meaning on {}", model.title);
         let help = match place.upper_of {
             None => help(model, first),
             Some(lower) => {
-                format!("`{lower}` holds 16 bits: use the 16-bit form of the instruction")
+                phrase!(
+                    "`{lower}` holds 16 bits: use the 16-bit form of the instruction",
+                    lower
+                )
             }
         };
         let mut diagnostic = codes::UNDEFINED_SPECIAL
@@ -95,17 +106,22 @@ impl Undefined {
             diagnostic = diagnostic.devices(used.iter().map(|&(device, _)| device));
         }
         for &(device, place) in others {
-            diagnostic = diagnostic.other(place.span, format!("`{device}` {}", place.what()));
+            diagnostic = diagnostic.other(
+                place.span,
+                format!("`{device}` {what}", what = place.what()),
+            );
         }
         out.push(diagnostic);
     }
 }
 
 impl Use {
-    fn what(self) -> Cow<'static, str> {
+    fn what(self) -> Phrase {
         match (self.upper_of, self.written) {
-            (Some(lower), true) => format!("written with `{lower}` as a 32-bit value").into(),
-            (Some(lower), false) => format!("read with `{lower}` as a 32-bit value").into(),
+            (Some(lower), true) => {
+                phrase!("written with `{lower}` as a 32-bit value", lower)
+            }
+            (Some(lower), false) => phrase!("read with `{lower}` as a 32-bit value", lower),
             (None, true) => "written here: nothing depends on it but the program".into(),
             (None, false) => "read here: nothing but the program changes it".into(),
         }
@@ -113,19 +129,21 @@ impl Use {
 }
 
 /// Models on which the device has a meaning.
-fn help(model: &Model, device: Device) -> String {
+fn help(model: &Model, device: Device) -> Phrase {
     let others = ModelId::ALL.into_iter().map(Model::get).filter(|other| {
         let row = other.special(device.class, device.number);
         other.instructions != model.instructions && row.is_some_and(|_| device.number >= 8000)
     });
     let names: Vec<_> = others.map(|other| other.name).collect();
     match names.len() {
-        0 => format!(
-            "use an ordinary device instead of `{device}` if it is a flag or value of the program's own"
+        0 => phrase!(
+            "use an ordinary device instead of `{device}` if it is a flag or value of the program's own",
+            device
         ),
-        _ => format!(
-            "`{device}` has a meaning on {}: `rungc explain {device}`",
-            names.join(", ")
+        _ => phrase!(
+            "`{device}` has a meaning on {names}: `rungc explain {device}`",
+            device,
+            names = names.join(", ")
         ),
     }
 }

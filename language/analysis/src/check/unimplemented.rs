@@ -3,7 +3,7 @@
 use super::Code;
 use rungc_catalogue::{Inst, Lower};
 use rungc_models::{Model, ModelId};
-use rungc_syntax::{Diagnostic, Diagnostics, Span, codes};
+use rungc_syntax::{Diagnostic, Diagnostics, Span, codes, phrase};
 
 /// Reports every instruction without an implementation on the model.
 pub(super) fn check(code: &Code, out: &mut Diagnostics) {
@@ -15,7 +15,10 @@ pub(super) fn check(code: &Code, out: &mut Diagnostics) {
             let diagnostic = refusal(inst, what, code.instr(i).mnemonic_span);
             out.push(match compiled_on(inst).as_slice() {
                 [] => diagnostic,
-                models => diagnostic.help(format!("it can be compiled for: {}", models.join(", "))),
+                models => diagnostic.help(phrase!(
+                    "it can be compiled for: {models}",
+                    models = models.join(", ")
+                )),
             });
         }
     }
@@ -31,7 +34,11 @@ fn compiled_on(inst: &Inst) -> Vec<&'static str> {
 
 /// The error of an instruction that cannot be compiled, for the reason `what`.
 pub fn refusal(inst: &Inst, what: &str, span: Span) -> Diagnostic {
-    let message = format!("`{}` cannot be compiled: {what}", inst.name);
+    let message = phrase!(
+        "`{inst}` cannot be compiled: {what}",
+        inst = inst.name,
+        what
+    );
     codes::NOT_IMPLEMENTED
         .at(span, message)
         .label("a program with this instruction cannot be built")

@@ -11,7 +11,7 @@ use rungc_models::Range;
 use rungc_models::runs::is_special;
 use rungc_rt::RtFn;
 use rungc_syntax::codes::Code as Finding;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Phrase, Span, codes, phrase};
 use std::borrow::Cow;
 
 /// The classes that are looked at, relays first. STL reads its state.
@@ -228,33 +228,18 @@ impl<'a, 'p> Unused<'a, 'p> {
                 && self.code.model().has(device.class, device.number)
         };
         let unread = self.coils.iter().filter(|(device, _)| lacks(device, false));
-        summary(
-            &codes::NEVER_READ,
-            ["driven and never read", "driven here", "reads"],
-            unread,
-            out,
-        );
+        summary(&DRIVEN_ONLY, unread, out);
         let undriven = self
             .contacts
             .iter()
             .filter(|(device, _)| lacks(device, true));
-        summary(
-            &codes::NEVER_WRITTEN,
-            ["read, but nothing drives them", "read here", "writes"],
-            undriven,
-            out,
-        );
+        summary(&CONTACTS_ONLY, undriven, out);
         let unwritten = self.registers.iter().filter(|(first, _, last)| {
             let mut words = (first.number..=*last).map(|number| Device { number, ..*first });
             words.all(|word| lacks(&word, true))
         });
         let unwritten: Vec<_> = unwritten.map(|&(first, span, _)| (first, span)).collect();
-        summary(
-            &codes::NEVER_WRITTEN,
-            ["read, but nothing writes them", "read here", "writes"],
-            unwritten.iter(),
-            out,
-        );
+        summary(&READ_ONLY, unwritten.iter(), out);
     }
 }
 
@@ -320,10 +305,88 @@ impl Class {
     }
 }
 
+/// Devices of which a program lacks a half, and what is said of them.
+struct Half {
+    code: &'static Finding,
+    /// Of the first device and the number of further ones.
+    message: fn(Device, usize) -> Phrase,
+    /// At the place of the first device, or of this one.
+    here: fn(Option<Device>) -> Phrase,
+    /// What may do the other half.
+    outside: Outside,
+}
+
+static DRIVEN_ONLY: Half = Half {
+    code: &codes::NEVER_READ,
+    message: |first, others| match others {
+        0 => phrase!("`{first}` is driven and never read", first),
+        1 => phrase!(
+            "`{first}` and 1 other device are driven and never read",
+            first
+        ),
+        n => phrase!(
+            "`{first}` and {n} other devices are driven and never read",
+            first,
+            n
+        ),
+    },
+    here: driven_here,
+    outside: Outside::Reads,
+};
+
+static CONTACTS_ONLY: Half = Half {
+    code: &codes::NEVER_WRITTEN,
+    message: |first, others| match others {
+        0 => phrase!("`{first}` is read, but nothing drives it", first),
+        1 => phrase!(
+            "`{first}` and 1 other device are read, but nothing drives them",
+            first
+        ),
+        n => phrase!(
+            "`{first}` and {n} other devices are read, but nothing drives them",
+            first,
+            n
+        ),
+    },
+    here: read_here,
+    outside: Outside::Writes,
+};
+
+static READ_ONLY: Half = Half {
+    code: &codes::NEVER_WRITTEN,
+    message: |first, others| match others {
+        0 => phrase!("`{first}` is read, but nothing writes it", first),
+        1 => phrase!(
+            "`{first}` and 1 other device are read, but nothing writes them",
+            first
+        ),
+        n => phrase!(
+            "`{first}` and {n} other devices are read, but nothing writes them",
+            first,
+            n
+        ),
+    },
+    here: read_here,
+    outside: Outside::Writes,
+};
+
+fn driven_here(device: Option<Device>) -> Phrase {
+    match device {
+        None => phrase!("driven here"),
+        Some(device) => phrase!("`{device}` driven here", device),
+    }
+}
+
+fn read_here(device: Option<Device>) -> Phrase {
+    match device {
+        None => phrase!("read here"),
+        Some(device) => phrase!("`{device}` read here", device),
+    }
+}
+
 /// One diagnostic for all devices of a kind: a program with an operator panel may have many.
 fn summary<'d>(
-    code: &'static Finding,
-    [what, here, outside]: [&'static str; 3],
+    half: &'static Half,
     found: impl Iterator<Item = &'d (Device, Span)>,
     out: &mut Diagnostics,
 ) {
@@ -331,27 +394,52 @@ fn summary<'d>(
     let Some((&&(first, span), others)) = found.split_first() else {
         return;
     };
-    let message = match others.len() {
-        0 => format!("`{first}` is {}", what.replace("them", "it")),
-        1 => format!("`{first}` and 1 other device are {what}"),
-        n => format!("`{first}` and {n} other devices are {what}"),
-    };
-    let mut diagnostic = code.at(span, message).label(here);
-    diagnostic = diagnostic.help(fine_if(outside, outside, found.len()));
+    let message = (half.message)(first, others.len());
+    let mut diagnostic = half.code.at(span, message).label((half.here)(None));
+    diagnostic = diagnostic.help(fine_if(half.outside, found.len()));
     if !others.is_empty() {
         diagnostic = diagnostic.devices(found.iter().map(|(device, _)| *device));
     }
     for (device, span) in others {
-        diagnostic = diagnostic.other(*span, format!("`{device}` {here}"));
+        diagnostic = diagnostic.other(*span, (half.here)(Some(*device)));
     }
     out.push(diagnostic);
 }
 
+/// What something outside the program may do with devices.
+#[derive(Clone, Copy)]
+pub(super) enum Outside {
+    Reads,
+    Writes,
+    Resets,
+}
+
 /// The help for devices of which something outside the program may do the other half, as a key of `[hmi]` says.
-pub(super) fn fine_if(does: &str, key: &str, count: usize) -> String {
-    let them = if count == 1 { "it" } else { "them" };
-    format!(
-        "this is fine if an operator panel or another program {does} {them}; then name {them} in \
-         `[hmi] {key}` of rungc.toml"
-    )
+pub(super) fn fine_if(outside: Outside, count: usize) -> Phrase {
+    match (outside, count) {
+        (Outside::Reads, 1) => phrase!(
+            "this is fine if an operator panel or another program reads it; then name it in \
+             `[hmi] reads` of rungc.toml"
+        ),
+        (Outside::Reads, _) => phrase!(
+            "this is fine if an operator panel or another program reads them; then name them in \
+             `[hmi] reads` of rungc.toml"
+        ),
+        (Outside::Writes, 1) => phrase!(
+            "this is fine if an operator panel or another program writes it; then name it in \
+             `[hmi] writes` of rungc.toml"
+        ),
+        (Outside::Writes, _) => phrase!(
+            "this is fine if an operator panel or another program writes them; then name them in \
+             `[hmi] writes` of rungc.toml"
+        ),
+        (Outside::Resets, 1) => phrase!(
+            "this is fine if an operator panel or another program resets it; then name it in \
+             `[hmi] writes` of rungc.toml"
+        ),
+        (Outside::Resets, _) => phrase!(
+            "this is fine if an operator panel or another program resets them; then name them in \
+             `[hmi] writes` of rungc.toml"
+        ),
+    }
 }

@@ -4,7 +4,7 @@ use super::Code;
 use crate::resolve::Resolved;
 use rungc_catalogue::Param;
 use rungc_models::{Model, Variant};
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Phrase, Span, codes, phrase};
 use std::collections::BTreeSet;
 
 /// Holds a program to a variant of its model.
@@ -20,7 +20,11 @@ pub fn check(resolved: &Resolved, variant: &Variant) -> Diagnostics {
             && !variant.has_instruction(inst.name)
         {
             let at = code.instr(i).mnemonic_span;
-            let message = format!("{} does not have `{}`", variant.title, inst.name);
+            let message = phrase!(
+                "{variant} does not have `{inst}`",
+                variant = variant.title,
+                inst = inst.name
+            );
             out.push(codes::NOT_ON_VARIANT.at(at, message).help(help(variant)));
         }
         devices(&code, i, variant, &mut beyond, &mut out);
@@ -29,9 +33,9 @@ pub fn check(resolved: &Resolved, variant: &Variant) -> Diagnostics {
 }
 
 /// Help for the user.
-fn help(variant: &Variant) -> String {
+fn help(variant: &Variant) -> Phrase {
     let family = Model::get(variant.model).name;
-    format!("`{family}` stands for all PLCs of the family")
+    phrase!("`{family}` stands for all PLCs of the family", family)
 }
 
 /// The devices that instruction `i` names; `beyond` holds terminals that were reported.
@@ -63,10 +67,15 @@ fn devices(
         };
         if beyond.insert(device) {
             let last = device.class.number(terminals - 1);
-            let message = format!("`{device}` is not on {}", variant.title);
+            let message = phrase!(
+                "`{device}` is not on {variant}",
+                device,
+                variant = variant.title
+            );
             let found = codes::BEYOND_BASE_UNIT.at(operand.span, message);
-            out.push(found.help(format!(
-                "its last one is {last}; an extension module has others"
+            out.push(found.help(phrase!(
+                "its last one is {last}; an extension module has others",
+                last
             )));
         }
     }
@@ -84,14 +93,18 @@ fn pulses(param: &Param, device: Device, variant: &Variant, at: Span) -> Option<
     let (message, help) = if param.sends_pulses && device.number >= variant.pulse_outputs {
         let last = DeviceClass::Y.number(variant.pulse_outputs - 1);
         (
-            format!("{title} sends no pulses at `{device}`"),
-            format!("its pulse outputs are Y000 to {last}"),
+            phrase!("{title} sends no pulses at `{device}`", title, device),
+            phrase!("its pulse outputs are Y000 to {last}", last),
         )
     } else if param.directs_pulses && device.number < variant.no_direction {
         let first = DeviceClass::Y.number(variant.no_direction);
         (
-            format!("`{device}` of {title} cannot give the direction of pulses"),
-            format!("use an output from {first} on"),
+            phrase!(
+                "`{device}` of {title} cannot give the direction of pulses",
+                device,
+                title
+            ),
+            phrase!("use an output from {first} on", first),
         )
     } else {
         return None;
@@ -103,7 +116,11 @@ fn pulses(param: &Param, device: Device, variant: &Variant, at: Span) -> Option<
 /// Reports a device that the variant does not have.
 fn lacking(variant: &Variant, device: Device, span: Span, out: &mut Diagnostics) {
     if !variant.has(device.class, device.number) {
-        let message = format!("{} does not have `{device}`", variant.title);
+        let message = phrase!(
+            "{variant} does not have `{device}`",
+            variant = variant.title,
+            device
+        );
         out.push(
             codes::NO_DEVICE_ON_VARIANT
                 .at(span, message)

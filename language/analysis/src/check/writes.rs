@@ -5,7 +5,7 @@ use super::ports::Roles;
 use crate::accesses::Access;
 use rungc_models::runs::is_special;
 use rungc_models::special::{self, PortRole};
-use rungc_syntax::{Device, Diagnostic, Diagnostics, codes};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, codes, phrase};
 
 /// A longer run of devices is cleared or copied as a whole; only its first device is meant. (A run that begins before
 /// the special devices ends before them, or check reports its length.)
@@ -41,14 +41,23 @@ fn maintained(
         special::Access::ReadUnless(_) => return None,
     };
     let mnemonic = &code.instr(i).mnemonic;
-    let message = format!("`{mnemonic}` writes `{device}`, which the system maintains");
+    let message = phrase!(
+        "`{mnemonic}` writes `{device}`, which the system maintains",
+        mnemonic,
+        device
+    );
     let diagnostic = codes::WRITES_READ_ONLY
         .at(access.span, message)
-        .label(format!("{device}: {}", special.meaning(device.number)));
+        .label(format!(
+            "{device}: {number}",
+            number = special.meaning(device.number)
+        ));
     Some(match role {
         None => diagnostic,
-        Some(PortRole { port, title, .. }) => {
-            diagnostic.help(format!("programs write it while COM{port} is {title}"))
-        }
+        Some(PortRole { port, title, .. }) => diagnostic.help(phrase!(
+            "programs write it while COM{port} is {title}",
+            port,
+            title
+        )),
     })
 }

@@ -2,7 +2,7 @@
 
 use rungc_catalogue::Found;
 use rungc_models::{Model, ModelId};
-use rungc_syntax::{Diagnostics, Operand, OperandKind, Program, codes};
+use rungc_syntax::{Diagnostics, Operand, OperandKind, Program, codes, phrase};
 
 /// Compares lengths; in sources that are lists there is nothing to compare.
 pub(super) struct Checker<'p> {
@@ -49,9 +49,12 @@ impl<'p> Checker<'p> {
             return;
         }
         let instr = &self.program.instrs[at];
-        let message = format!(
-            "the project states {stated} steps for `{}`, which has {length} with these operands on {}",
-            instr.mnemonic, model.name
+        let message = phrase!(
+            "the project states {stated} steps for `{mnemonic}`, which has {length} with these operands on {model}",
+            stated,
+            mnemonic = instr.mnemonic,
+            length,
+            model = model.name
         );
         out.push(
             codes::CODE_MISFIT

@@ -1,10 +1,10 @@
 //! From mnemonics to rows and forms.
 
-use super::suggest::{self, Open};
+use super::suggest::{self, Open, any_of};
 use rungc_catalogue::Form;
 use rungc_catalogue::{Basic, Drive, Forms, Found, Inst};
 use rungc_models::{Model, ModelId};
-use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Instr, codes};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Instr, codes, phrase};
 
 /// Maximum number of unknown mnemonics that get a suggestion; searching one costs as much as resolving hundreds of good
 /// instructions.
@@ -86,7 +86,10 @@ impl Finder {
     }
 
     fn unknown(&mut self, instr: &Instr, last: bool, out: &mut Diagnostics) -> Option<Match> {
-        let message = format!("unknown instruction `{}`", instr.mnemonic);
+        let message = phrase!(
+            "unknown instruction `{mnemonic}`",
+            mnemonic = instr.mnemonic
+        );
         let diagnostic = codes::UNKNOWN_INSTRUCTION
             .at(instr.mnemonic_span, message)
             .label("no model has this instruction");
@@ -103,7 +106,7 @@ impl Finder {
         out.push(match meant.instead {
             None => diagnostic,
             Some((text, certain)) => {
-                let title = format!("write `{text}`");
+                let title = phrase!("write `{text}`", text);
                 let fix = match certain {
                     true => Fix::certain(title),
                     false => Fix::suggested(title),
@@ -125,16 +128,17 @@ impl Finder {
             .filter(|&id| inst.models.has(id))
             .map(|id| Model::get(id).name)
             .collect();
-        let message = format!(
-            "`{}` is not available on {}",
-            instr.mnemonic, self.model.title
+        let message = phrase!(
+            "`{mnemonic}` is not available on {model}",
+            mnemonic = instr.mnemonic,
+            model = self.model.title
         );
         codes::NOT_ON_MODEL
             .at(instr.mnemonic_span, message)
             .label(inst.title)
             .help(match having.as_slice() {
-                [] => "no supported model has it".to_owned(),
-                names => format!("available on: {}", names.join(", ")),
+                [] => phrase!("no supported model has it"),
+                names => phrase!("available on: {names}", names = names.join(", ")),
             })
     }
 
@@ -146,23 +150,29 @@ impl Finder {
             .filter_map(|form| inst.spelling_of(form))
             .collect();
         let missing = match form {
-            Form { pulse: true, .. } if !inst.forms_on(self.model.id).has(Forms::PULSE) => "pulse",
-            Form { wide: true, .. } if inst.forms_on(self.model.id).has(Forms::W32) => "16-bit",
-            Form { wide: true, .. } => "32-bit",
-            Form { wide: false, .. } => "16-bit",
+            Form { pulse: true, .. } if !inst.forms_on(self.model.id).has(Forms::PULSE) => {
+                phrase!("pulse")
+            }
+            Form { wide: true, .. } if inst.forms_on(self.model.id).has(Forms::W32) => {
+                phrase!("16-bit")
+            }
+            Form { wide: true, .. } => phrase!("32-bit"),
+            Form { wide: false, .. } => phrase!("16-bit"),
         };
-        let message = format!(
-            "`{}` does not exist: `{}` has no {missing} form",
-            instr.mnemonic, inst.name
+        let message = phrase!(
+            "`{mnemonic}` does not exist: `{inst}` has no {missing} form",
+            mnemonic = instr.mnemonic,
+            inst = inst.name,
+            missing
         );
         let diagnostic = codes::NO_SUCH_FORM
             .at(instr.mnemonic_span, message)
-            .label(format!("no {missing} form"));
+            .label(phrase!("no {missing} form", missing));
         let quoted: Vec<_> = forms.iter().map(|form| format!("`{form}`")).collect();
-        let diagnostic = diagnostic.help(format!("write {}", quoted.join(" or ")));
+        let diagnostic = diagnostic.help(phrase!("write {forms}", forms = any_of(&quoted)));
         match forms.as_slice() {
             [only] => diagnostic.fix(
-                Fix::suggested(format!("write `{only}`"))
+                Fix::suggested(phrase!("write `{only}`", only))
                     .replace(instr.mnemonic_span, only.as_str()),
             ),
             _ => diagnostic,

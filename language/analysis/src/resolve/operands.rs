@@ -7,9 +7,8 @@ use rungc_models::Model;
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_syntax::{
     Classes, Device, DeviceClass, Diagnostic, Diagnostics, Fix, Index, Instr, Operand, OperandKind,
-    Span, codes,
+    Phrase, Span, codes, phrase,
 };
-use std::borrow::Cow;
 
 /// Checks operands for one model.
 pub(super) struct Checker {
@@ -115,8 +114,8 @@ impl Checker {
         let before = diagnostic
             .help
             .as_ref()
-            .map_or(String::new(), |help| format!("{help}; "));
-        let help = format!("{before}`{}` takes it", boards.name);
+            .map_or("".into(), |help| phrase!("{help}; ", help));
+        let help = phrase!("{before}`{boards}` takes it", before, boards = boards.name);
         diagnostic.help(help)
     }
 
@@ -213,29 +212,38 @@ impl Checker {
         };
         let direct = device_of(&operand.kind).filter(|device| barred(*device));
         if !param.indexable || direct.is_some() {
-            let with = direct.map_or_else(String::new, |device| format!(" with `{device}`"));
-            let message = format!(
-                "operand {} of `{}` cannot take an index register{with} on {}",
-                param.name, matched.instr.mnemonic, self.model.name
+            let with =
+                direct.map_or_else(|| "".into(), |device| phrase!(" with `{device}`", device));
+            let message = phrase!(
+                "operand {param} of `{mnemonic}` cannot take an index register{with} on {model}",
+                param = param.name,
+                mnemonic = matched.instr.mnemonic,
+                with,
+                model = self.model.name
             );
             return Some(
                 codes::NOT_INDEXABLE
                     .at(span, message)
-                    .label(format!("`{index}` is not allowed here"))
+                    .label(phrase!("`{index}` is not allowed here", index))
                     .help(without_index(&operand.kind, &matched.instr.mnemonic)),
             );
         }
         let pair = matched.found.form.wide && self.model.z_pairs_with_v;
         if pair && index.class == DeviceClass::V {
-            let message = format!(
-                "`{index}` cannot be the index in the 32-bit instruction `{}`",
-                matched.instr.mnemonic
+            let message = phrase!(
+                "`{index}` cannot be the index in the 32-bit instruction `{mnemonic}`",
+                index,
+                mnemonic = matched.instr.mnemonic
             );
             return Some(
                 codes::INDEX_WIDTH
                     .at(span, message)
                     .label("the index is a pair here, named by its Z")
-                    .help(format!("use `Z{}` and clear `{index}`", index.number)),
+                    .help(phrase!(
+                        "use `Z{number}` and clear `{index}`",
+                        number = index.number,
+                        index
+                    )),
             );
         }
         self.existing(span, register)
@@ -266,25 +274,30 @@ impl Checker {
             .iter()
             .map(|&(first, last)| match first == last {
                 true => class.number(first).to_string(),
-                false => format!("{}–{}", class.number(first), class.number(last)),
+                false => format!(
+                    "{first}–{last}",
+                    first = class.number(first),
+                    last = class.number(last)
+                ),
             })
             .collect();
         let ranges = match ranges.len() {
-            0 => format!("it has no {}", class.prefix()),
-            1..=MAX_RANGES => ranges.join(", "),
-            n => format!(
-                "{}, … {}",
-                ranges[..MAX_RANGES - 1].join(", "),
-                ranges[n - 1]
-            ),
+            0 => phrase!("it has no {prefix}", prefix = class.prefix()),
+            1..=MAX_RANGES => ranges.join(", ").into(),
+            n => {
+                let first = ranges[..MAX_RANGES - 1].join(", ");
+                format!("{first}, … {}", ranges[n - 1]).into()
+            }
         };
-        let message = format!(
-            "`{device}` does not exist on {} ({ranges})",
-            self.model.name
+        let message = phrase!(
+            "`{device}` does not exist on {model} ({ranges})",
+            device,
+            model = self.model.name,
+            ranges
         );
         codes::NO_DEVICE
             .at(span, message)
-            .label(format!("not on {}", self.model.title))
+            .label(phrase!("not on {model}", model = self.model.title))
     }
 
     /// A 32-bit counter as a 16-bit value.
@@ -310,7 +323,11 @@ impl Checker {
         };
         narrow.then(|| {
             let mnemonic = &matched.instr.mnemonic;
-            let message = format!("`{device}` is a 32-bit counter, `{mnemonic}` takes 16 bits");
+            let message = phrase!(
+                "`{device}` is a 32-bit counter, `{mnemonic}` takes 16 bits",
+                device,
+                mnemonic
+            );
             let diagnostic = codes::COUNTER_WIDTH
                 .at(span, message)
                 .label("C200 to C255 hold 32 bits");
@@ -320,9 +337,9 @@ impl Checker {
             };
             match matched.found.inst.spelling_of(wide) {
                 Some(name) => {
-                    let fix = Fix::suggested(format!("write `{name}`"))
+                    let fix = Fix::suggested(phrase!("write `{name}`", name))
                         .replace(matched.instr.mnemonic_span, name.as_str());
-                    let help = format!("use the 32-bit form `{name}`");
+                    let help = phrase!("use the 32-bit form `{name}`", name);
                     diagnostic.help(help).fix(fix)
                 }
                 None => diagnostic,
@@ -342,15 +359,18 @@ impl Checker {
         let is_pair = words(matched.found, param) == 2 || matches!(param.extent, Extent::Count(2));
         (half && is_pair).then(|| {
             let mnemonic = &matched.instr.mnemonic;
-            let message =
-                format!("`{device}` is only the upper half of the operand of `{mnemonic}`");
+            let message = phrase!(
+                "`{device}` is only the upper half of the operand of `{mnemonic}`",
+                device,
+                mnemonic
+            );
             codes::INDEX_WIDTH
                 .at(span, message)
                 .label("V and Z are a pair here, named by its Z")
-                .help(format!("use `Z{}`", device.number))
+                .help(phrase!("use `Z{number}`", number = device.number))
                 .fix(
-                    Fix::suggested(format!("write `Z{}`", device.number))
-                        .replace(span, format!("Z{}", device.number)),
+                    Fix::suggested(phrase!("write `Z{number}`", number = device.number))
+                        .replace(span, format!("Z{number}", number = device.number)),
                 )
         })
     }
@@ -385,21 +405,16 @@ impl Checker {
         let end = self.end_of_run(class, device.number)?;
         let last = device.number.saturating_add(count.max(1) - 1);
         (last > end).then(|| {
-            let message = format!(
-                "operand {} of `{}` uses {count} devices starting at `{device}`, but `{}` is the last one",
-                param.name,
-                matched.instr.mnemonic,
-                class.number(end)
-            );
+            let message = phrase!("operand {param} of `{mnemonic}` uses {count} devices starting at `{device}`, but `{end}` is the last one", param = param.name, mnemonic = matched.instr.mnemonic, count, device, end = class.number(end));
             let highest = (end + 1)
                 .checked_sub(count)
                 .and_then(|first| (self.end_of_run(class, first) == Some(end)).then_some(first));
             let diagnostic = codes::PAST_THE_END
                 .at(span, message)
-                .label(format!("up to `{}`", class.number(last)));
+                .label(phrase!("up to `{last}`", last = class.number(last)));
             match highest {
                 Some(first) => {
-                    diagnostic.help(format!("start at `{}` or below", class.number(first)))
+                    diagnostic.help(phrase!("start at `{first}` or below", first = class.number(first)))
                 }
                 None => diagnostic,
             }
@@ -429,7 +444,7 @@ impl Checker {
             );
             codes::PAST_THE_END
                 .at(span, message)
-                .label(format!("up to `{}`", device.class.number(last)))
+                .label(phrase!("up to `{last}`", last = device.class.number(last)))
         })
     }
 }
@@ -453,9 +468,7 @@ fn no_buffer(span: Span, module: u32, address: u32) -> Option<Diagnostic> {
     const LAST_MODULE: u32 = 7;
     const LAST_ADDRESS: u32 = 32_767;
     (module > LAST_MODULE || address > LAST_ADDRESS).then(|| {
-        let message = format!(
-            "`U{module}\\G{address}` does not exist (modules U0–U{LAST_MODULE}, addresses G0–G{LAST_ADDRESS})"
-        );
+        let message = phrase!("`U{module}\\G{address}` does not exist (modules U0–U{LAST_MODULE}, addresses G0–G{LAST_ADDRESS})", module, address, LAST_MODULE, LAST_ADDRESS);
         codes::NO_DEVICE.at(span, message).label("no such buffer memory")
     })
 }
@@ -531,12 +544,10 @@ fn bits(found: Found, param: &Param) -> u32 {
 }
 
 /// What to do instead of giving an operand an index.
-fn without_index(kind: &OperandKind, mnemonic: &str) -> Cow<'static, str> {
+fn without_index(kind: &OperandKind, mnemonic: &str) -> Phrase {
     let class = device_of(kind).map(|device| device.class);
     match class {
-        Some(DeviceClass::P | DeviceClass::I) => format!(
-            "name the pointer directly: one `{mnemonic}` for each, under a comparison of the index register"
-        )
+        Some(DeviceClass::P | DeviceClass::I) => phrase!("name the pointer directly: one `{mnemonic}` for each, under a comparison of the index register", mnemonic)
         .into(),
         _ => "name the device directly, or copy the indexed one first: `MOV`, `BMOV`".into(),
     }
@@ -551,9 +562,12 @@ fn indexes_itself(span: Span, kind: &OperandKind) -> Option<Diagnostic> {
         codes::NOT_INDEXABLE
             .at(
                 span,
-                format!("`{device}` is an index register and cannot be indexed itself"),
+                phrase!(
+                    "`{device}` is an index register and cannot be indexed itself",
+                    device
+                ),
             )
-            .label(format!("`{index}` is not allowed here"))
+            .label(phrase!("`{index}` is not allowed here", index))
             .help("add the registers first, or use a data register")
     })
 }
@@ -561,14 +575,14 @@ fn indexes_itself(span: Span, kind: &OperandKind) -> Option<Diagnostic> {
 /// The notation `D0.F` is one of data registers, and takes no index register (FX3 manual, the note to every `D□.b`).
 fn bit_of_register(span: Span, device: Device, index: Option<Index>) -> Option<Diagnostic> {
     if device.class != DeviceClass::D {
-        let message = format!("`{device}` has no bits that can be named like this");
+        let message = phrase!("`{device}` has no bits that can be named like this", device);
         let diagnostic = codes::OPERAND_CLASS.at(span, message);
         return Some(diagnostic.label("only a data register has bits: `D0.F`"));
     }
     let index = index?;
     let diagnostic = codes::NOT_INDEXABLE
         .at(span, "a bit of a register cannot take an index register")
-        .label(format!("`{index}` is not allowed here"))
+        .label(phrase!("`{index}` is not allowed here", index))
         .help("move the register into a group of relays first: `MOV D0Z0 K4M0`");
     Some(diagnostic)
 }
@@ -582,10 +596,14 @@ fn digits_fit(matched: &Matched, span: Span, digits: u8, param: &Param) -> Optio
     let bits = bits(matched.found, param).saturating_mul(values).min(32);
     let most = bits / 4;
     (!(1..=most).contains(&u32::from(digits))).then(|| {
-        let message = format!("K{digits} is not a valid digit count for a {bits}-bit value");
+        let message = phrase!(
+            "K{digits} is not a valid digit count for a {bits}-bit value",
+            digits,
+            bits
+        );
         codes::DIGITS
             .at(span, message)
-            .label(format!("K1 to K{most} here"))
+            .label(phrase!("K1 to K{most} here", most))
     })
 }
 
@@ -632,12 +650,13 @@ fn outside_limits(
     let limits = rules::limits(param, matched.found.form.wide);
     let fits = readings.iter().any(|&value| limits.allow(value));
     (!fits && !indexed).then(|| {
-        let message = format!(
-            "`{}` is outside the limits of operand {}",
-            operand.kind, param.name
+        let message = phrase!(
+            "`{kind}` is outside the limits of operand {param}",
+            kind = operand.kind,
+            param = param.name
         );
         codes::LIMITS
             .at(operand.span, message)
-            .label(format!("{} here", limits.in_words("K")))
+            .label(phrase!("{in_words} here", in_words = limits.in_words("K")))
     })
 }

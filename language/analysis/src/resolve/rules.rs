@@ -3,7 +3,9 @@
 use super::operands::is_unreadable;
 use rungc_catalogue::{Limits, Param, Rule};
 use rungc_models::runs::{FIRST_COUNTER32, is_special};
-use rungc_syntax::{Classes, Device, DeviceClass, Diagnostic, Operand, OperandKind, codes};
+use rungc_syntax::{
+    Classes, Device, DeviceClass, Diagnostic, Operand, OperandKind, Phrase, codes, phrase,
+};
 
 /// Error in operand `at` of an instruction by the rules of its parameter, if any.
 pub(super) fn broken(
@@ -41,11 +43,14 @@ pub(super) fn broken(
         Rule::EndsInZero => {
             let device = device_of(&operand.kind)?;
             let base = if device.class.is_octal() { 8 } else { 10 };
-            unaligned(operand, device, base, "does not end in 0")
+            {
+                let message = phrase!("the number of `{device}` does not end in 0", device);
+                unaligned(operand, device, base, message)
+            }
         }
         Rule::Aligned(of) => {
             let device = device_of(&operand.kind)?;
-            unaligned(operand, device, of, &format!("is not a multiple of {of}"))
+            unaligned(operand, device, of, not_a_multiple(device, of))
         }
         Rule::WholeGroup => {
             let whole = if wide { 8 } else { 4 };
@@ -56,7 +61,7 @@ pub(super) fn broken(
             let narrow = matches!(rule, Rule::WideAligned(_)) && !wide;
             digits(operand).filter(|_| !narrow)?;
             let device = device_of(&operand.kind)?;
-            unaligned(operand, device, of, &format!("is not a multiple of {of}"))
+            unaligned(operand, device, of, not_a_multiple(device, of))
         }
         Rule::SameDigits(other) => {
             let other = operands.get(other)?;
@@ -85,7 +90,10 @@ pub(super) fn broken(
 
 /// Operands that a predicate does not accept together.
 fn contradictory(operand: &Operand, demand: &'static str) -> Diagnostic {
-    let message = format!("`{}` contradicts the other operands", operand.kind);
+    let message = phrase!(
+        "`{kind}` contradicts the other operands",
+        kind = operand.kind
+    );
     codes::OPERANDS_DISAGREE
         .at(operand.span, message)
         .label(demand)
@@ -93,7 +101,10 @@ fn contradictory(operand: &Operand, demand: &'static str) -> Diagnostic {
 
 /// A constant that a predicate does not accept.
 fn unsuited(operand: &Operand, demand: &'static str) -> Diagnostic {
-    let message = format!("`{}` is not a value that is accepted here", operand.kind);
+    let message = phrase!(
+        "`{kind}` is not a value that is accepted here",
+        kind = operand.kind
+    );
     codes::LIMITS.at(operand.span, message).label(demand)
 }
 
@@ -109,10 +120,10 @@ fn too_many_groups(operand: &Operand, other: &Operand, max: i64) -> Option<Diagn
     digits(other)?;
     let value = operand.kind.constant()?;
     (value > max).then(|| {
-        let message = format!("`{}` is too many groups of bits", operand.kind);
+        let message = phrase!("`{kind}` is too many groups of bits", kind = operand.kind);
         codes::LIMITS
             .at(operand.span, message)
-            .label(format!("at most K{max} with a group"))
+            .label(phrase!("at most K{max} with a group", max))
     })
 }
 
@@ -149,9 +160,9 @@ pub(super) fn limits(param: &Param, wide: bool) -> Limits {
 
 /// A class that the 32-bit form does not take.
 fn only_narrow(operand: &Operand) -> Diagnostic {
-    let message = format!(
-        "`{}` cannot be this operand of the 32-bit form",
-        operand.kind
+    let message = phrase!(
+        "`{kind}` cannot be this operand of the 32-bit form",
+        kind = operand.kind
     );
     codes::OPERAND_CLASS
         .at(operand.span, message)
@@ -160,19 +171,25 @@ fn only_narrow(operand: &Operand) -> Diagnostic {
 }
 
 fn forbidden(operand: &Operand, min: i64, max: i64) -> Diagnostic {
-    let message = format!("`{}` has no meaning here", operand.kind);
+    let message = phrase!("`{kind}` has no meaning here", kind = operand.kind);
     let range = match min == max {
-        true => format!("K{min} is not used"),
-        false => format!("K{min} to K{max} are not used"),
+        true => phrase!("K{min} is not used", min),
+        false => phrase!("K{min} to K{max} are not used", min, max),
     };
     codes::LIMITS.at(operand.span, message).label(range)
 }
 
 fn no_multiple(operand: &Operand, of: i64) -> Diagnostic {
-    let message = format!("`{}` is not a multiple of {of}", operand.kind);
-    codes::LIMITS
-        .at(operand.span, message)
-        .label(format!("K{of}, K{}, … here", of.saturating_mul(2)))
+    let message = phrase!(
+        "`{kind}` is not a multiple of {of}",
+        kind = operand.kind,
+        of
+    );
+    codes::LIMITS.at(operand.span, message).label(phrase!(
+        "K{of}, K{twice}, … here",
+        of,
+        twice = of.saturating_mul(2)
+    ))
 }
 
 fn compare(
@@ -185,10 +202,17 @@ fn compare(
     wrong(value, bound).then(|| disagree(operand, other, demand))
 }
 
-fn unaligned(operand: &Operand, device: Device, of: u32, fault: &str) -> Option<Diagnostic> {
+fn not_a_multiple(device: Device, of: u32) -> Phrase {
+    phrase!(
+        "the number of `{device}` is not a multiple of {of}",
+        device,
+        of
+    )
+}
+
+fn unaligned(operand: &Operand, device: Device, of: u32, message: Phrase) -> Option<Diagnostic> {
     let rest = device.number.checked_rem(of).filter(|&rest| rest != 0)?;
     let below = device.class.number(device.number - rest);
-    let message = format!("the number of `{device}` {fault}");
     Some(
         codes::NOT_THIS_NUMBER
             .at(operand.span, message)
@@ -197,16 +221,20 @@ fn unaligned(operand: &Operand, device: Device, of: u32, fault: &str) -> Option<
 }
 
 fn partial_group(operand: &Operand, whole: u8) -> Diagnostic {
-    let message = format!("`{}` must have all {whole} digits here", operand.kind);
+    let message = phrase!(
+        "`{kind}` must have all {whole} digits here",
+        kind = operand.kind,
+        whole
+    );
     codes::DIGITS
         .at(operand.span, message)
-        .label(format!("K{whole} here"))
+        .label(phrase!("K{whole} here", whole))
 }
 
 fn narrow_counter(operand: &Operand) -> Diagnostic {
-    let message = format!(
-        "`{}` is a 16-bit counter; a 32-bit one is required here",
-        operand.kind
+    let message = phrase!(
+        "`{kind}` is a 16-bit counter; a 32-bit one is required here",
+        kind = operand.kind
     );
     codes::NOT_THIS_NUMBER
         .at(operand.span, message)
@@ -214,7 +242,11 @@ fn narrow_counter(operand: &Operand) -> Diagnostic {
 }
 
 fn disagree(operand: &Operand, other: &Operand, demand: &str) -> Diagnostic {
-    let message = format!("`{}` {demand} `{}`", operand.kind, other.kind);
+    let message = format!(
+        "`{kind}` {demand} `{kind2}`",
+        kind = operand.kind,
+        kind2 = other.kind
+    );
     // The labels are read in the order of their places.
     let (here, there) = match other.span < operand.span {
         true => ("… conflicts with this", "this …"),

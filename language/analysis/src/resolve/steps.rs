@@ -1,7 +1,7 @@
 //! Counts steps, and compares them with the step numbers that the source states.
 
 use rungc_models::Model;
-use rungc_syntax::{Diagnostics, Instr, Parameters, Program, Span, codes};
+use rungc_syntax::{Diagnostics, Instr, Parameters, Phrase, Program, Span, codes, phrase};
 
 /// Counts steps from instruction to instruction.
 #[derive(Default)]
@@ -55,17 +55,20 @@ impl Counter {
         let listed = !program.kind.is_project();
         if let Some((span, stated, expected)) = self.first.filter(|_| listed) {
             let more = match self.mismatches {
-                1 => String::new(),
-                n => format!(" (and {} more such steps after it)", n - 1),
+                1 => Phrase::default(),
+                n => phrase!(" (and {n} more such steps after it)", n = n - 1),
             };
-            let message = format!(
-                "the source numbers this step {stated}, but on {} it is step {expected}{more}",
-                model.name
+            let message = phrase!(
+                "the source numbers this step {stated}, but on {model} it is step {expected}{more}",
+                stated,
+                model = model.name,
+                expected,
+                more
             );
             out.push(
                 codes::STEPS_DIFFER
                     .at(span, message)
-                    .label(format!("step {expected}, counting the instructions before it"))
+                    .label(phrase!("step {expected}, counting the instructions before it", expected))
                     .help("the program may be for another model (`--model`), or a line may be missing before this one"),
             );
         }
@@ -76,10 +79,21 @@ impl Counter {
             && let Some(last) = program.instrs.last()
         {
             let room = match own {
-                Some(steps) => format!("the memory capacity in the PLC parameters leaves {steps}"),
-                None => format!("{} holds {}", model.name, model.max_steps),
+                Some(steps) => phrase!(
+                    "the memory capacity in the PLC parameters leaves {steps}",
+                    steps
+                ),
+                None => phrase!(
+                    "{model} holds {max_steps}",
+                    model = model.name,
+                    max_steps = model.max_steps
+                ),
             };
-            let message = format!("the program has {} steps, but {room}", self.counted);
+            let message = phrase!(
+                "the program has {counted} steps, but {room}",
+                counted = self.counted,
+                room
+            );
             let warning = codes::TOO_LONG.at(last.span, message);
             out.push(match own {
                 Some(_) => warning.help("choose a larger memory capacity in the PLC parameters"),

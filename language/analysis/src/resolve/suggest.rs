@@ -7,13 +7,13 @@ use super::operands::takes;
 use rungc_catalogue::{Basic, Found, Inst};
 use rungc_models::{Model, ModelSet};
 use rungc_syntax::diag::distance;
-use rungc_syntax::{Device, DeviceClass, Instr, Operand, OperandKind};
+use rungc_syntax::{Device, DeviceClass, Instr, Operand, OperandKind, Phrase, phrase};
 use std::sync::OnceLock;
 
 /// Suggestion for an unknown mnemonic.
 pub(super) struct Meant {
     /// Reports it to the author.
-    pub(super) help: String,
+    pub(super) help: Phrase,
     /// The instruction, where only one comes into question.
     pub(super) found: Option<Found>,
     /// The label, where a label was meant.
@@ -164,6 +164,15 @@ const HABITS: &[(&[&str], &str, &str)] = &[
     ),
 ];
 
+/// A list of which one is meant.
+pub(crate) fn any_of(names: &[String]) -> Phrase {
+    match names {
+        [] => Phrase::default(),
+        [only] => only.into(),
+        [before @ .., last] => phrase!("{before} or {last}", before = before.join(", "), last),
+    }
+}
+
 /// No mnemonic is longer than this by more than a typing error.
 const LONGEST: usize = 14;
 
@@ -183,7 +192,10 @@ pub(super) fn meant(instr: &Instr, open: Open, last: bool, model: &Model) -> Opt
 fn operand(name: &str) -> Option<Meant> {
     glued_operands(name).filter(|all| all.len() == 1)?;
     Some(Meant {
-        help: format!("`{name}` is an operand: write it on the line of its instruction"),
+        help: phrase!(
+            "`{name}` is an operand: write it on the line of its instruction",
+            name
+        ),
         found: None,
         label: None,
         instead: None,
@@ -196,7 +208,7 @@ fn habit(name: &str) -> Option<Meant> {
     // Others take other operands, or a contact before them.
     let same = !matches!(*row, "OUT" | "CJ" | "CALL" | "PLS" | "PLF");
     Some(Meant {
-        help: (*help).to_owned(),
+        help: (*help).into(),
         found: rungc_catalogue::find(row),
         label: None,
         instead: same.then(|| ((*row).to_owned(), true)),
@@ -242,15 +254,16 @@ fn comparison(name: &str) -> Option<Meant> {
     let (_, join, negated) = JOINS.iter().find(|(written, ..)| *written == join)?;
     let mut operators = OPERATORS.iter();
     let (_, same, opposite) = operators.find(|(written, ..)| written.contains(&operator))?;
-    let (right, help) = match negated {
-        true => (
-            format!("{join}{opposite}"),
-            "comparisons are not negated: the opposite is",
+    let right = format!("{join}{}", if *negated { opposite } else { same });
+    let help = match negated {
+        true => phrase!(
+            "comparisons are not negated: the opposite is `{right}`",
+            right
         ),
-        false => (format!("{join}{same}"), "the comparison is"),
+        false => phrase!("the comparison is `{right}`", right),
     };
     Some(Meant {
-        help: format!("{help} `{right}`"),
+        help,
         found: rungc_catalogue::find(&right),
         label: None,
         instead: Some((right, true)),
@@ -266,7 +279,7 @@ fn mistyped_label(instr: &Instr) -> Option<Meant> {
     let number = number.parse().ok().filter(|_| instr.operands.is_empty())?;
     let label = Device { class, number };
     Some(Meant {
-        help: format!("did you mean the label `{label}`?"),
+        help: phrase!("did you mean the label `{label}`?", label),
         found: rungc_catalogue::find(letter),
         label: Some(label),
         instead: Some((label.to_string(), false)),
@@ -286,10 +299,14 @@ fn glued(instr: &Instr, model: &Model) -> Option<Meant> {
             .collect();
         operands.extend(instr.operands.iter().cloned());
         takes(found, &operands, model).then(|| Meant {
-            help: format!("a space is missing: `{name} {}`", words.join(" ")),
+            help: phrase!(
+                "a space is missing: `{name} {words}`",
+                name,
+                words = words.join(" ")
+            ),
             found: Some(found),
             label: None,
-            instead: Some((format!("{name} {}", words.join(" ")), true)),
+            instead: Some((format!("{name} {words}", words = words.join(" ")), true)),
         })
     };
     (1..name.len().min(LONGEST + 1)).rev().find_map(split)
@@ -348,12 +365,12 @@ fn moved_affix(instr: &Instr, model: &Model) -> Option<Meant> {
     ];
     let mut right = stems
         .into_iter()
-        .filter_map(|(stem, wide, pulse)| Some(format!("{wide}{}{pulse}", stem?)));
+        .filter_map(|(stem, wide, pulse)| Some(format!("{wide}{stem}{pulse}", stem = stem?)));
     right.find_map(|name| {
         let found = rungc_catalogue::find(&name)?;
         let fits = found.inst.models.has(model.id) && takes(found, &instr.operands, model);
         fits.then(|| Meant {
-            help: format!("did you mean `{name}`?"),
+            help: phrase!("did you mean `{name}`?", name),
             found: Some(found),
             label: None,
             instead: Some((name, false)),
@@ -403,23 +420,22 @@ fn similar(instr: &Instr, open: Open, last: bool, model: &Model) -> Option<Meant
         .iter()
         .map(|(_, name, _)| format!("`{name}`"))
         .collect();
-    let (last, before) = names.split_last()?;
-    let names = match before {
-        [] => last.clone(),
-        before => format!("{} or {last}", before.join(", ")),
-    };
+    if names.is_empty() {
+        return None;
+    }
+    let names = any_of(&names);
     let comparison = format!("{name}=");
     let compared = match rungc_catalogue::find(&comparison).filter(|_| !names.contains(&comparison))
     {
-        Some(_) => format!(" (a comparison is `{comparison}`)"),
-        None => String::new(),
+        Some(_) => phrase!(" (a comparison is `{comparison}`)", comparison),
+        None => Phrase::default(),
     };
     let only = match fitting.as_slice() {
         &[(_, name, found)] => Some((name, found)),
         _ => None,
     };
     Some(Meant {
-        help: format!("did you mean {names}?{compared}"),
+        help: phrase!("did you mean {names}?{compared}", names, compared),
         found: only.map(|(_, found)| found),
         label: None,
         instead: only

@@ -4,7 +4,8 @@ use super::operands::{Matched, is_unreadable};
 use rungc_catalogue::{Basic, Form, Found, Inst, Param, Role, Shape};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::{
-    Classes, Device, DeviceClass, Diagnostic, Fix, Instr, Operand, OperandKind, Source, Span, codes,
+    Classes, Device, DeviceClass, Diagnostic, Fix, Instr, Operand, OperandKind, Phrase, Source,
+    Span, codes, phrase,
 };
 
 /// The error for a line that continues with another instruction: `LD X000 OUT Y000`.
@@ -44,7 +45,10 @@ pub(super) fn second_instruction(
         let end = before.map_or(instr.mnemonic_span, |before| before.span).end;
         Span::new(end, instr.operands[first].span.start)
     };
-    let message = format!("a second instruction, `{}`, on one line", text(second));
+    let message = phrase!(
+        "a second instruction, `{second}`, on one line",
+        second = text(second)
+    );
     let end = Span::new(instr.span.end, instr.span.end);
     let begin = instr.operands[begins(further[0].0)].span;
     let diagnostic = codes::ONE_PER_LINE
@@ -53,11 +57,11 @@ pub(super) fn second_instruction(
     let (title, help) = match others {
         [] => (
             "put it on its own line",
-            format!("write `{}` on its own line", text(second)),
+            phrase!("write `{second}` on its own line", second = text(second)),
         ),
         _ => (
             "put each on its own line",
-            "write each instruction on its own line".to_owned(),
+            phrase!("write each instruction on its own line"),
         ),
     };
     let fix = further.iter().fold(Fix::certain(title), |fix, (at, _)| {
@@ -84,13 +88,19 @@ pub(super) fn fraction(
     })?;
     let text = source.slice(operand.span);
     let error = codes::BAD_OPERAND
-        .at(operand.span, format!("`{text}` is not a valid operand"))
-        .label(format!("`{}` takes whole numbers", instr.mnemonic));
+        .at(
+            operand.span,
+            phrase!("`{text}` is not a valid operand", text),
+        )
+        .label(phrase!(
+            "`{mnemonic}` takes whole numbers",
+            mnemonic = instr.mnemonic
+        ));
     let form = Form {
         wide: true,
         ..found.form
     };
-    let floats = rungc_catalogue::find(&format!("E{}", found.inst.name))
+    let floats = rungc_catalogue::find(&format!("E{inst}", inst = found.inst.name))
         .filter(|floats| floats.inst.models.has(model.id))
         .filter(|floats| {
             let params = floats.inst.params_of(&instr.operands, model);
@@ -100,11 +110,14 @@ pub(super) fn fraction(
     Some(match floats {
         Some(name) => {
             let constant = format!("E{text}");
-            let fix = Fix::suggested(format!("write `{name}` and `{constant}`"))
+            let fix = Fix::suggested(phrase!("write `{name}` and `{constant}`", name, constant))
                 .replace(instr.mnemonic_span, name.as_str())
                 .replace(operand.span, constant.as_str());
-            let help =
-                format!("`{name}` takes floats, here `{constant}`; a float takes two registers");
+            let help = phrase!(
+                "`{name}` takes floats, here `{constant}`; a float takes two registers",
+                name,
+                constant
+            );
             error.help(help).fix(fix)
         }
         None => error.help("scale the value, and write a whole number such as `K15`"),
@@ -113,30 +126,33 @@ pub(super) fn fraction(
 
 pub(super) fn too_few(instr: &Instr, params: &[Param]) -> Diagnostic {
     let found = instr.operands.len();
-    let message = format!(
-        "`{}` needs {}, found {found}",
-        instr.mnemonic,
-        counted(params.iter().filter(|param| !param.optional).count())
+    let message = phrase!(
+        "`{mnemonic}` needs {count}, found {found}",
+        mnemonic = instr.mnemonic,
+        count = counted(params.iter().filter(|param| !param.optional).count()),
+        found
     );
     let missing: Vec<_> = params.iter().skip(found).map(|param| param.name).collect();
-    let (noun, verb) = match missing.len() {
-        1 => ("operand", "is"),
-        _ => ("operands", "are"),
+    let names = missing.join(", ");
+    let label = match missing.len() {
+        1 => phrase!("operand {names} is missing", names),
+        _ => phrase!("operands {names} are missing", names),
     };
     let end = Span::new(instr.span.end, instr.span.end);
     codes::TOO_FEW_OPERANDS
         .at(if found == 0 { instr.span } else { end }, message)
-        .label(format!("{noun} {} {verb} missing", missing.join(", ")))
+        .label(label)
         .help(signature(&instr.mnemonic, params))
 }
 
 pub(super) fn too_many(instr: &Instr, first: Span, name: &str, params: &[Param]) -> Diagnostic {
     let message = match params.len() {
-        0 => format!("`{name}` takes no operand"),
-        n => format!(
-            "`{name}` takes {}, found {}",
-            counted(n),
-            instr.operands.len()
+        0 => phrase!("`{name}` takes no operand", name),
+        n => phrase!(
+            "`{name}` takes {counted}, found {operands}",
+            name,
+            counted = counted(n),
+            operands = instr.operands.len()
         ),
     };
     codes::TOO_MANY_OPERANDS
@@ -145,21 +161,20 @@ pub(super) fn too_many(instr: &Instr, first: Span, name: &str, params: &[Param])
         .help(signature(name, params))
 }
 
-fn counted(operands: usize) -> String {
+fn counted(operands: usize) -> Phrase {
     match operands {
-        1 => "1 operand".to_owned(),
-        n => format!("{n} operands"),
+        1 => phrase!("1 operand"),
+        n => phrase!("{n} operands", n),
     }
 }
 
-fn signature(name: &str, params: &[Param]) -> String {
-    let mut text = format!("write `{name}");
+fn signature(name: &str, params: &[Param]) -> Phrase {
+    let mut form = name.to_owned();
     for param in params {
         let (open, close) = if param.optional { ("[", "]") } else { ("", "") };
-        text.push_str(&format!(" {open}{}{close}", param.name));
+        form.push_str(&format!(" {open}{param}{close}", param = param.name));
     }
-    text.push('`');
-    text
+    phrase!("write `{form}`", form)
 }
 
 /// An operand of a class that the parameter does not take; `at` is its place.
@@ -175,9 +190,11 @@ pub(super) fn wrong_class(
     if let Some(device) = missing_class(&operand.kind, model) {
         return no_such_class(operand.span, device, model);
     }
-    let message = format!(
-        "`{}` cannot be operand {} of `{}`",
-        operand.kind, param.name, instr.mnemonic
+    let message = phrase!(
+        "`{kind}` cannot be operand {param} of `{mnemonic}`",
+        kind = operand.kind,
+        param = param.name,
+        mnemonic = instr.mnemonic
     );
     let kind = Classes::of(&operand.kind);
     let written = param.role != Role::Read;
@@ -189,13 +206,17 @@ pub(super) fn wrong_class(
     let error = codes::OPERAND_CLASS.at(operand.span, message).label(label);
     let error = match whole_group(operand, matched, classes) {
         Some(group) => error.fix(
-            Fix::suggested(format!("write `{group}`")).replace(operand.span, group.to_string()),
+            Fix::suggested(phrase!("write `{group}`", group))
+                .replace(operand.span, group.to_string()),
         ),
         None => error,
     };
     error.help(instead(operand, matched, classes).unwrap_or_else(|| {
         let all = of_all_variants(inst, at, model).or(classes);
-        format!("accepted: {}", all.names().collect::<Vec<_>>().join(", "))
+        phrase!(
+            "accepted: {kinds}",
+            kinds = all.names().collect::<Vec<_>>().join(", ")
+        )
     }))
 }
 
@@ -212,7 +233,7 @@ fn whole_group(operand: &Operand, matched: &Matched, classes: Classes) -> Option
 }
 
 /// Replacement of an operand of the wrong class, where known.
-fn instead(operand: &Operand, matched: &Matched, classes: Classes) -> Option<String> {
+fn instead(operand: &Operand, matched: &Matched, classes: Classes) -> Option<Phrase> {
     let OperandKind::Device(device, _) = operand.kind else {
         return None;
     };
@@ -223,19 +244,27 @@ fn instead(operand: &Operand, matched: &Matched, classes: Classes) -> Option<Str
         .or(Classes::KNS);
     if let Some(grouped) = whole_group(operand, matched, classes) {
         let bits = if matched.found.form.wide { 32 } else { 16 };
-        return Some(format!(
-            "`{device}` is one bit; write a group of {bits} bits as `{grouped}`"
+        return Some(phrase!(
+            "`{device}` is one bit; write a group of {bits} bits as `{grouped}`",
+            device,
+            bits,
+            grouped
         ));
     }
     let coil = matched.found.inst.basic() == Some(Basic::Out);
     if coil && matches!(device.class, D | R | V | Z) {
-        return Some(format!(
-            "a coil is Y, M, S, T, C or a bit of a word (`D0.F`); use `MOV` to write a value to `{device}`"
+        return Some(phrase!(
+            "a coil is Y, M, S, T, C or a bit of a word (`D0.F`); use `MOV` to write a value to `{device}`",
+            device
         ));
     }
     let bits = !classes.meets(group) && classes.meets(Classes::M);
-    (bits && matches!(device.class, D) && classes.meets(Classes::WORD_BIT))
-        .then(|| format!("`{device}` is a word; write one bit of it as `{device}.F`"))
+    (bits && matches!(device.class, D) && classes.meets(Classes::WORD_BIT)).then(|| {
+        phrase!(
+            "`{device}` is a word; write one bit of it as `{device}.F`",
+            device
+        )
+    })
 }
 
 /// The classes that an operand takes with any of the devices that may be first.
@@ -258,15 +287,16 @@ fn no_such_class(span: Span, device: Device, model: &Model) -> Diagnostic {
     let having = ModelId::ALL.into_iter().map(Model::get);
     let having = having.filter(|other| other.ranges_of(class).next().is_some());
     let names: Vec<_> = having.map(|other| other.name).collect();
-    let message = format!(
-        "`{device}` does not exist: {} has no {}",
-        model.name,
-        class.prefix()
+    let message = phrase!(
+        "`{device}` does not exist: {model} has no {prefix}",
+        device,
+        model = model.name,
+        prefix = class.prefix()
     );
     codes::NO_DEVICE
         .at(span, message)
-        .label(format!("not on {}", model.title))
-        .help(format!("available on: {}", names.join(", ")))
+        .label(phrase!("not on {model}", model = model.title))
+        .help(phrase!("available on: {names}", names = names.join(", ")))
 }
 
 /// A device whose number does not serve in this place.
@@ -281,22 +311,32 @@ pub(super) fn not_this_number(
         .iter()
         .map(|&&(class, first, last)| match first == last {
             true => class.number(first).to_string(),
-            false => format!("{}–{}", class.number(first), class.number(last)),
+            false => format!(
+                "{first}–{last}",
+                first = class.number(first),
+                last = class.number(last)
+            ),
         })
         .collect();
+    let ranges = ranges.join(", ");
     let diagnostic = codes::NOT_THIS_NUMBER
-        .at(span, format!("`{device}` cannot be used here"))
-        .label(format!("here only {}", ranges.join(", ")));
-    let task = match (param.keeps_position, param.sends_pulses) {
-        (true, _) => "keep a position",
-        (_, true) => "send pulses",
+        .at(span, phrase!("`{device}` cannot be used here", device))
+        .label(phrase!("here only {ranges}", ranges));
+    let model = model.name;
+    let help = match (param.keeps_position, param.sends_pulses) {
+        (true, _) => phrase!(
+            "only these outputs of {model} keep a position: {ranges}",
+            model,
+            ranges
+        ),
+        (_, true) => phrase!(
+            "only these outputs of {model} send pulses: {ranges}",
+            model,
+            ranges
+        ),
         _ => return diagnostic,
     };
-    diagnostic.help(format!(
-        "only these outputs of {} {task}: {}",
-        model.name,
-        ranges.join(", ")
-    ))
+    diagnostic.help(help)
 }
 
 /// A constant that is wider than its operand.
@@ -306,7 +346,11 @@ pub(super) fn wide_constant(
     bits: u32,
     model: &Model,
 ) -> Diagnostic {
-    let message = format!("`{}` does not fit in {bits} bits", operand.kind);
+    let message = phrase!(
+        "`{kind}` does not fit in {bits} bits",
+        kind = operand.kind,
+        bits
+    );
     let preset = preset_of(matched);
     let range = match (bits, matches!(operand.kind, OperandKind::Hex(..))) {
         (16, false) if preset.is_some() => "K0 to K32767 here",
@@ -325,9 +369,11 @@ pub(super) fn wide_constant(
     };
     match matched.found.inst.spelling_of(wide) {
         Some(name) if bits == 16 => {
-            let fix = Fix::suggested(format!("write `{name}`"))
+            let fix = Fix::suggested(phrase!("write `{name}`", name))
                 .replace(matched.instr.mnemonic_span, name.as_str());
-            diagnostic.help(format!("`{name}` takes 32 bits")).fix(fix)
+            diagnostic
+                .help(phrase!("`{name}` takes 32 bits", name))
+                .fix(fix)
         }
         _ => diagnostic,
     }
@@ -345,15 +391,16 @@ fn preset_of(matched: &Matched) -> Option<Device> {
 }
 
 /// Advice for times or counts beyond the greatest preset of a timer or counter.
-fn longer_preset(device: Device, model: &Model) -> String {
+fn longer_preset(device: Device, model: &Model) -> Phrase {
     match model
         .timer(device.number)
         .filter(|_| device.class == DeviceClass::T)
     {
-        Some(kind) => format!(
-            "`{device}` counts up to {} s; for longer times, let the contact of one timer drive the next",
-            f64::from(kind.unit_ms) * 32_767.0 / 1_000.0
+        Some(kind) => phrase!(
+            "`{device}` counts up to {seconds} s; for longer times, let the contact of one timer drive the next",
+            device,
+            seconds = (f64::from(kind.unit_ms) * 32_767.0 / 1_000.0).to_string()
         ),
-        None => "C200 to C234 count with 32 bits".to_owned(),
+        None => phrase!("C200 to C234 count with 32 bits"),
     }
 }

@@ -98,7 +98,7 @@ fn misfits(text: &str, cpu: &str, target: ModelId) -> Vec<String> {
         .iter()
         .filter(|d| d.code == codes::CODE_MISFIT.id);
     assert!(diagnostics.iter().all(|d| d.code != codes::STEPS_DIFFER.id));
-    misfits.map(|d| d.message.clone()).collect()
+    misfits.map(|d| d.message.to_string()).collect()
 }
 
 #[test]

@@ -369,7 +369,7 @@ fn finish(read: &Read, compiled: Compiled) -> Result<Lowered, Errors> {
     let errors: Vec<_> = found
         .iter()
         .filter(|d| d.severity == Severity::Error)
-        .map(|d| (d.plc_error, line_of(source, d), d.message.clone()))
+        .map(|d| (d.plc_error, line_of(source, d), d.message.to_string()))
         .collect();
     match compiled.module {
         Some(module) if errors.is_empty() => Ok((module, compiled.marks.unwrap_or_default())),

@@ -84,7 +84,7 @@ pub fn module(text: &str, property: &Property) -> Module {
         ..CompileOptions::default()
     };
     let compiled = compile(&read.program, &options);
-    let found = compiled.diagnostics.iter().map(|d| d.message.clone());
+    let found = compiled.diagnostics.iter().map(|d| d.message.to_string());
     let found: Vec<String> = found.collect();
     let module = compiled.module;
     let mut module = module.unwrap_or_else(|| panic!("does not compile: {found:?}\n{text}"));

@@ -8,7 +8,7 @@ use rungc_catalogue::Lower;
 use rungc_models::ModelId;
 use rungc_rt::comm::{Choice, LineFormat, PortWiring, Protocol};
 use rungc_rt::{Ports, RtFn};
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes, phrase};
 use std::ops::RangeInclusive;
 
 /// Checks the ports that a program uses or sets up.
@@ -45,13 +45,17 @@ pub(in super::super) fn check(code: &Code, out: &mut Diagnostics) {
 /// Set-up registers that only an index reaches.
 fn indexed(facts: &Facts, out: &mut Diagnostics) {
     for &(first, near, span) in &facts.indexed {
-        let message =
-            format!("`{first}` with an index may be `{near}`, which sets up a serial port");
+        let message = phrase!(
+            "`{first}` with an index may be `{near}`, which sets up a serial port",
+            first,
+            near
+        );
         let diagnostic = codes::PORT_SET_BY_INDEX
             .at(span, message)
             .label("a protocol that is chosen only here is missing from a compiled program")
-            .help(format!(
-                "if this sets up the port, name the register: `{near}`"
+            .help(phrase!(
+                "if this sets up the port, name the register: `{near}`",
+                near
             ));
         out.push(diagnostic);
     }
@@ -67,7 +71,7 @@ struct Port<'a> {
 
 impl Port<'_> {
     fn name(&self) -> String {
-        format!("COM{}", self.wiring.number)
+        format!("COM{number}", number = self.wiring.number)
     }
 
     /// The devices that choose what the port speaks, and its format.
@@ -87,7 +91,11 @@ impl Port<'_> {
             let Some(other) = rest.iter().find(|other| other.value != first.value) else {
                 continue;
             };
-            let message = format!("`{device}` of {} is set to two values", self.name());
+            let message = phrase!(
+                "`{device}` of {self} is set to two values",
+                device,
+                self = self.name()
+            );
             let diagnostic = codes::PORT_SET_TWICE
                 .at(self.code.span(other.at), message)
                 .label("this value counts …")
@@ -103,7 +111,7 @@ impl Port<'_> {
         };
         let uinits = self.facts.uinit.get(&self.wiring.number);
         if let Some((first, other)) = uinits.and_then(twice) {
-            let message = format!("{} is set up in two ways", self.name());
+            let message = phrase!("{self} is set up in two ways", self = self.name());
             let diagnostic = codes::PORT_SET_TWICE
                 .at(self.code.span(other.at), message)
                 .label("set up like this here …")
@@ -142,10 +150,10 @@ impl Port<'_> {
         );
         let diagnostic = codes::PORT_SET_TWICE
             .at(self.code.span(at), message)
-            .label(format!("{} is wanted here …", wanted.name()))
+            .label(phrase!("{wanted} is wanted here …", wanted = wanted.name()))
             .other(
                 self.code.span(over),
-                format!("… but {} here", protocol.name()),
+                phrase!("… but {protocol} here", protocol = protocol.name()),
             );
         out.push(diagnostic);
     }
@@ -172,9 +180,11 @@ impl Port<'_> {
                 continue;
             }
             let model = self.code.model().name.to_uppercase();
-            let message = format!(
-                "`{device}` is not always set in the first scan, at whose end {model} fixes the protocol of {}",
-                self.name()
+            let message = phrase!(
+                "`{device}` is not always set in the first scan, at whose end {model} fixes the protocol of {self}",
+                device,
+                model,
+                self = self.name()
             );
             let diagnostic = codes::PORT_SET_LATE
                 .at(self.code.span(first.at), message)
@@ -216,16 +226,19 @@ impl Port<'_> {
         });
         let Some(place) = place else { return };
         let (least, most) = (stations.start(), stations.end());
-        let message = format!(
-            "{} is a {} with station {station}; stations are {least} to {most}",
-            self.name(),
-            noun(protocol)
+        let message = phrase!(
+            "{self} is a {protocol} with station {station}; stations are {least} to {most}",
+            self = self.name(),
+            protocol = noun(protocol),
+            station,
+            least,
+            most
         );
         let diagnostic = codes::PORT_STATION
             .at(self.code.span(place), message)
             .label("no frame can be for this station");
         out.push(match register {
-            Some(register) => diagnostic.help(format!("set `{register}` to its station")),
+            Some(register) => diagnostic.help(phrase!("set `{register}` to its station", register)),
             None => diagnostic,
         });
     }
@@ -261,8 +274,15 @@ impl Port<'_> {
             } else {
                 "an N:N link"
             };
-            let message =
-                format!("`{register}` is {value}: {what} of {link} are {least} to {most}");
+            let message = phrase!(
+                "`{register}` is {value}: {what} of {link} are {least} to {most}",
+                register,
+                value,
+                what,
+                link,
+                least,
+                most
+            );
             let diagnostic = codes::LINK_RANGE
                 .at(self.code.span(place), message)
                 .label("out of range");
@@ -331,10 +351,12 @@ impl Port<'_> {
         let Some((place, protocol)) = place else {
             return;
         };
-        let message = format!(
-            "{} {is} the {}: {partners} have to run programs of rungc, too",
-            self.name(),
-            protocol.name()
+        let message = phrase!(
+            "{self} {is} the {protocol}: {partners} have to run programs of rungc, too",
+            self = self.name(),
+            is,
+            protocol = protocol.name(),
+            partners
         );
         let note = codes::OWN_FRAMES
             .at(self.code.span(place), message)
@@ -403,10 +425,16 @@ impl Port<'_> {
             let mnemonic = &self.code.instr(i).mnemonic;
             let name = self.name();
             let message = match protocol {
-                Protocol::Off => format!("`{mnemonic}` works on {name}, which has no protocol"),
-                _ => format!(
-                    "`{mnemonic}` works on {name}, which is a {}",
-                    noun(protocol)
+                Protocol::Off => phrase!(
+                    "`{mnemonic}` works on {name}, which has no protocol",
+                    mnemonic,
+                    name
+                ),
+                _ => phrase!(
+                    "`{mnemonic}` works on {name}, which is a {protocol}",
+                    mnemonic,
+                    name,
+                    protocol = noun(protocol)
                 ),
             };
             let diagnostic = code
@@ -427,9 +455,9 @@ impl Port<'_> {
         }
         let mut places = self.chooses().filter_map(|device| self.place(Some(device)));
         let Some(place) = places.next() else { return };
-        let message = format!(
-            "{} works through a Modbus table, which has no rows",
-            self.name()
+        let message = phrase!(
+            "{self} works through a Modbus table, which has no rows",
+            self = self.name()
         );
         let warning = codes::PORT_NO_TABLE
             .at(self.code.span(place), message)
@@ -487,9 +515,9 @@ fn canlink(code: &Code, out: &mut Diagnostics) {
         }) else {
             continue;
         };
-        let message = format!(
-            "`{}` is a register of the network on a station of CANlink",
-            access.first
+        let message = phrase!(
+            "`{first}` is a register of the network on a station of CANlink",
+            first = access.first
         );
         let warning = codes::CANLINK_REGISTERS
             .at(code.span(i), message)
@@ -510,7 +538,10 @@ fn remote_module(code: &Code, i: usize, out: &mut Diagnostics) {
     };
     if unit.kind.constant().is_some_and(|unit| unit > STATIONS) {
         let mnemonic = &code.instr(i).mnemonic;
-        let message = format!("{mnemonic} reaches a remote module beside CANlink");
+        let message = phrase!(
+            "{mnemonic} reaches a remote module beside CANlink",
+            mnemonic
+        );
         let warning = codes::CANLINK_AND_MODULES
             .at(unit.span, message)
             .label("on the same CAN bus")

@@ -1,5 +1,7 @@
 //! The kinds of structures, and which of them may hold which.
 
+use rungc_syntax::{Phrase, phrase};
+
 /// Kinds of structures.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Kind {
@@ -48,13 +50,24 @@ pub(super) fn crossing(outer: Kind, inner: Kind) -> u16 {
 
 impl Kind {
     /// Name in messages.
-    pub(super) fn name(self) -> &'static str {
+    pub(super) fn name(self) -> Phrase {
         match self {
-            Kind::Mc => "master control zone",
-            Kind::For => "loop",
-            Kind::Stl => "step ladder",
-            Kind::Sub => "subroutine",
-            Kind::Interrupt => "interrupt routine",
+            Kind::Mc => phrase!("master control zone"),
+            Kind::For => phrase!("loop"),
+            Kind::Stl => phrase!("step ladder"),
+            Kind::Sub => phrase!("subroutine"),
+            Kind::Interrupt => phrase!("interrupt routine"),
+        }
+    }
+
+    /// One of them, in messages.
+    pub(super) fn one(self) -> Phrase {
+        match self {
+            Kind::Mc => phrase!("a master control zone"),
+            Kind::For => phrase!("a loop"),
+            Kind::Stl => phrase!("a step ladder"),
+            Kind::Sub => phrase!("a subroutine"),
+            Kind::Interrupt => phrase!("an interrupt routine"),
         }
     }
 

@@ -1,0 +1,5 @@
+# {first}, and so are {count} more operands
+t-first-and-so-are-count-more-operands-bfd9207e = { $first }，另有 { $count } 个操作数也是如此
+
+# the compiled program starts here
+t-the-compiled-program-starts-here-70971256 = 编译后的程序从这里开始
