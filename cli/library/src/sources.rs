@@ -196,8 +196,9 @@ fn texts(sources: &Sources) -> Texts {
     };
     for file in sources.to_st() {
         let text = String::from_utf8_lossy(&file.contents).into_owned();
+        let is_tasks = text.starts_with("CONFIGURATION");
         match is_program(&file.path) {
-            _ if !file.path.ends_with(".st") => {}
+            _ if !file.path.ends_with(".st") || is_tasks => {}
             Some(name) => texts.programs.push((name, file.path, text)),
             None => texts.parts.push((file.path, text)),
         }

@@ -122,6 +122,7 @@ pub(crate) struct Supply {
     t: Free,
     c: Free,
     p: Free,
+    ticks: Option<Free>,
 }
 
 impl Supply {
@@ -132,7 +133,20 @@ impl Supply {
             t: Free::new(DeviceClass::T, ranges.t),
             c: Free::new(DeviceClass::C, ranges.c),
             p: Free::new(DeviceClass::P, ranges.p),
+            ticks: ranges
+                .ticks
+                .map(|ticks| Free::new(DeviceClass::T, ticks)),
         }
+    }
+
+    /// The next timer of 10 ms.
+    pub(crate) fn tick(&mut self) -> Option<Device> {
+        let free = self.ticks.as_mut()?;
+        let number = free.take_top(1)?;
+        Some(Device {
+            class: free.class,
+            number,
+        })
     }
 
     /// The first of `count` devices of a class, from the top of its range down.

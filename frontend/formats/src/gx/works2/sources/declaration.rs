@@ -123,7 +123,7 @@ pub(super) fn structure(structure: &Structure) -> String {
 
 /// Tasks, and the programs that they run.
 pub(super) fn tasks(tasks: &[Task]) -> String {
-    let mut out = String::new();
+    let mut out = "CONFIGURATION Project\n".to_owned();
     for task in tasks {
         let when = match (task.event.as_str(), task.interval.as_str()) {
             ("TRUE", _) => String::new(),
@@ -132,12 +132,12 @@ pub(super) fn tasks(tasks: &[Task]) -> String {
         };
         let _ = writeln!(
             out,
-            "TASK {}({when}PRIORITY := {});",
+            "    TASK {}({when}PRIORITY := {});",
             task.name, task.priority
         );
         for pou in &task.pous {
-            let _ = writeln!(out, "PROGRAM {pou} WITH {};", task.name);
+            let _ = writeln!(out, "    PROGRAM {pou} WITH {} : {pou};", task.name);
         }
     }
-    out
+    out + "END_CONFIGURATION\n"
 }
