@@ -351,12 +351,19 @@ impl Project {
         file.is_some() && all.any(|program| place(&program) == file)
     }
 
-    /// The first file of the program, for one of several that are it; other files stand for themselves.
+    /// The first file of the program, for one of several that are it, or for their folder; other files stand for
+    /// themselves.
     pub fn whole(&self, file: PathBuf) -> PathBuf {
+        let is_own = |folder: &Path| folder.is_dir() && folder.canonicalize().ok() == self.folder();
         match self.program().filter(|_| !self.parts.is_empty()) {
-            Some(program) if self.is_about(&file) => program,
+            Some(program) if self.is_about(&file) || is_own(&file) => program,
             _ => file,
         }
+    }
+
+    /// The folder of the file.
+    fn folder(&self) -> Option<PathBuf> {
+        self.at(Path::new(".")).canonicalize().ok()
     }
 }
 

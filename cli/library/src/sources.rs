@@ -252,8 +252,8 @@ impl Whole<'_> {
 }
 
 /// Devices that the editor chose for labels of a program and for global ones, and those of members of structures, which
-/// no text states.
-fn known(sources: &Sources, program: &str) -> Known {
+/// no text states. Those of other programs stand behind their names.
+pub(crate) fn known(sources: &Sources, program: &str) -> Known {
     let local = format!("{program}.");
     let mut known = Known::new();
     for one in sources.devices() {
@@ -303,7 +303,14 @@ impl Lines {
 
 /// Devices of labels, and those that a text names. All other relays and registers of compiled text are temporaries.
 fn stated(sources: &Sources) -> BTreeSet<Device> {
-    let mut stated: BTreeSet<_> = sources.devices().iter().map(|one| one.device).collect();
+    stated_devices(sources, true)
+}
+
+/// As [`stated`], with or without devices that the editor chose.
+pub(crate) fn stated_devices(sources: &Sources, with_chosen: bool) -> BTreeSet<Device> {
+    let labels = sources.devices().into_iter();
+    let labels = labels.filter(|one| with_chosen || !one.is_chosen);
+    let mut stated: BTreeSet<_> = labels.map(|one| one.device).collect();
     for pou in &sources.pous {
         if let Body::Text(text) = &pou.body {
             let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
@@ -311,6 +318,11 @@ fn stated(sources: &Sources) -> BTreeSet<Device> {
         }
     }
     stated
+}
+
+/// Instructions without the numbers of temporaries and jumps.
+pub(crate) fn lines(instrs: &[Instr], stated: &BTreeSet<Device>) -> Vec<String> {
+    Lines::new(instrs, stated).0
 }
 
 /// The relay or register that a word names: `M10`, `D10Z0`, `K4M0`.

@@ -93,7 +93,8 @@ pub(crate) fn read_files(
 fn near(path: &Path) -> &Path {
     let folder = std::env::current_dir().and_then(dunce::canonicalize);
     let below = folder.ok().and_then(|folder| path.strip_prefix(folder).ok());
-    below.unwrap_or(path)
+    let path = below.unwrap_or(path);
+    path.strip_prefix(".").unwrap_or(path)
 }
 
 /// The files of structured text in a folder and below, in the order of their paths. Hidden folders and those called

@@ -21,8 +21,12 @@ impl Compiler<'_> {
                 error.help("assign something to it, `NAME := VALUE;`, or call it, `NAME(…);`"),
             );
         };
-        if let (ExprKind::Member(..), Some(instance)) = (&of.kind, self.instance(of)) {
-            return self.called_block(&instance, args, expr);
+        if let ExprKind::Member(..) | ExprKind::Index(..) = &of.kind {
+            if let Some(instance) = self.instance(of) {
+                return self.called_block(&instance, args, expr);
+            }
+            // What it is instead is worth more than that it cannot be called.
+            self.spot(of)?;
         }
         let Some(name) = of.name() else {
             return fail(codes::ST_UNSUPPORTED.at(of.span, "this cannot be called"));
@@ -31,6 +35,9 @@ impl Compiler<'_> {
         if let Some(label) = labels.get(name) {
             if let Stored::Instance(instance) = &label.stored {
                 return self.called_block(instance, args, expr);
+            }
+            if matches!(label.stored, Stored::Instances) {
+                self.spot(of)?;
             }
             let what = format!("`{name}` is a label, which cannot be called");
             return fail(codes::ST_TYPE.at(of.span, what));

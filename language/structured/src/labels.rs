@@ -24,6 +24,8 @@ pub(crate) enum Stored {
     Constant(Const),
     /// Instance of a function block.
     Instance(Rc<Instance>),
+    /// Array of instances, each of which is a label with its index in its name: `Valves[2]`.
+    Instances,
     /// Its declaration is wrong, which is reported.
     Unknown,
 }
@@ -88,8 +90,12 @@ pub(crate) struct Declaring<'d> {
     pub units: &'d [Unit],
     pub structures: &'d Structures,
     pub found: &'d mut Vec<Diagnostic>,
+    /// Name of the program with a dot; empty for global labels and functions.
+    pub program: String,
     /// Names of the instances around, each with a dot.
     pub path: String,
+    /// True for the labels of a subroutine.
+    pub is_routine: bool,
     /// Number of instances that may still be declared.
     pub left: usize,
 }
@@ -108,9 +114,18 @@ impl<'d> Declaring<'d> {
             units,
             structures,
             found,
+            program: String::new(),
             path: String::new(),
+            is_routine: false,
             left: blocks::MOST,
         }
+    }
+
+    /// The known device of a label, by its name with or without that of the program.
+    fn known(&self, name: &str) -> Option<Device> {
+        let whole = format!("{}{name}", self.program).to_uppercase();
+        let known = self.known.get(&whole);
+        known.or_else(|| self.known.get(name)).copied()
     }
 }
 
@@ -277,18 +292,19 @@ impl Labels {
 
     fn variable(&mut self, variable: &Variable, is_constant: bool, role: Role, cx: &mut Declaring) {
         if let Some(unit) = block_of(variable, cx.units) {
-            let is_plain = variable.of.bounds.is_empty() && variable.place.is_none();
-            for name in &variable.names {
-                match is_plain {
-                    true => self.instance(name, unit, cx),
-                    false => self.insert(Label::new(name, Type::Plain(Ty::Raw16), role)),
-                }
+            if let Some(place) = &variable.place {
+                let what = "a function block gets its devices by itself";
+                let error = codes::ST_UNSUPPORTED.at(place.span, what);
+                cx.found.push(error.help("leave out `AT`"));
             }
-            if !is_plain {
-                let what = "arrays of blocks, and blocks at a device, are not compiled yet";
-                let error = codes::ST_UNSUPPORTED.at(variable.span, what);
-                cx.found
-                    .push(error.help("declare each instance: `Name : BLOCK;`"));
+            let Some(bounds) = self.bounds(&variable.of, cx.found) else {
+                return;
+            };
+            for name in &variable.names {
+                match bounds.is_empty() {
+                    true => self.instance(name, unit, cx),
+                    false => self.instances(name, unit, &bounds, cx),
+                }
             }
             return;
         }
@@ -307,8 +323,8 @@ impl Labels {
                     (true, _) => self.constant(variable, name, of),
                     (false, Some(Some(place))) => suits(place.clone(), of, variable),
                     (false, Some(None)) => Ok(Stored::Unknown),
-                    // A reference has no device.
-                    (false, None) if role == Role::InOut => Ok(Stored::Unknown),
+                    // A reference has no device; a subroutine works on a copy.
+                    (false, None) if role == Role::InOut && !cx.is_routine => Ok(Stored::Unknown),
                     (false, None) => chosen(&label, cx, variable),
                 };
                 match stored {
@@ -325,6 +341,36 @@ impl Labels {
                     .as_ref()
                     .is_some_and(|initial| fold::is_hexadecimal(self, initial));
             self.insert(label);
+        }
+    }
+
+    /// Declares an array of instances of a function block.
+    fn instances(&mut self, name: &Name, unit: usize, bounds: &[(i64, i64)], cx: &mut Declaring) {
+        if let Some(error) = self.clash(name, Role::Own) {
+            cx.found.push(error);
+            return;
+        }
+        let mut label = Label::new(name, Type::Plain(Ty::Raw16), Role::Own);
+        label.stored = Stored::Instances;
+        self.insert(label);
+        let mut index: Vec<i64> = bounds.iter().map(|(first, _)| *first).collect();
+        loop {
+            let element = Name {
+                text: element(&name.text, &index).into(),
+                span: name.span,
+            };
+            self.instance(&element, unit, cx);
+            // One that is not used is no mistake if others are.
+            self.own(&element.text);
+            // The last dimension counts first.
+            let next = (0..index.len()).rev().find(|at| index[*at] < bounds[*at].1);
+            let Some(at) = next.filter(|_| cx.left > 0) else {
+                return;
+            };
+            index[at] += 1;
+            for later in at + 1..index.len() {
+                index[later] = bounds[later].0;
+            }
         }
     }
 
@@ -422,6 +468,8 @@ impl Instance {
     pub(crate) fn declared(unit: usize, cx: &mut Declaring) -> Instance {
         let block = &cx.units[unit];
         let mut own = Labels::default();
+        let is_routine = block.kind == UnitKind::Function || block.is_library;
+        let outer = std::mem::replace(&mut cx.is_routine, is_routine);
         let before = cx.found.len();
         for section in &block.sections {
             let role = match section.keyword.text.as_str() {
@@ -444,6 +492,7 @@ impl Instance {
             };
             own.variable(&result, false, Role::Own, cx);
         }
+        cx.is_routine = outer;
         // Each instance would report the same.
         let mut kept = cx.found.split_off(before);
         kept.retain(|one| !cx.found.contains(one));
@@ -485,6 +534,12 @@ pub(crate) fn value_in((value, of): Literal, ty: Ty, span: Span) -> Result<Const
         (Const::Int(value), _) if ty == Ty::Bool => Ok(Const::Bool(value == 1)),
         (value, _) => Ok(value),
     }
+}
+
+/// Name of an element of an array of instances: `Valves[1,2]`.
+pub(crate) fn element(name: &str, index: &[i64]) -> String {
+    let index: Vec<_> = index.iter().map(ToString::to_string).collect();
+    format!("{name}[{}]", index.join(","))
 }
 
 /// The function block that a declaration names as its type.
@@ -577,15 +632,15 @@ fn chosen(
     if let Type::Structure(structure) = &label.of {
         let members = structure.members.iter().filter_map(|member| {
             let member = member.name.to_uppercase();
-            let device = cx.known.get(&format!("{name}.{member}"))?;
-            Some((member, *device))
+            let device = cx.known(&format!("{name}.{member}"))?;
+            Some((member, device))
         });
         area.members = members.collect();
         if area.members.len() == structure.members.len() {
             return Ok(Stored::Area(area));
         }
     }
-    let known = cx.known.get(&name).copied();
+    let known = cx.known(&name);
     if size.bits > 1 {
         cx.supply.leave_bits();
     }

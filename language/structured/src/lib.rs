@@ -43,7 +43,8 @@ use std::collections::BTreeMap;
 use std::mem;
 use std::rc::Rc;
 
-/// Devices that are known for labels without one, by their names in upper case.
+/// Devices that are known for labels without one, by their names in upper case; that of the program may stand before
+/// them, as in `MAIN.START`.
 pub type Known = BTreeMap<String, Device>;
 
 /// Compiles the text of a program that was read as structured text into its instructions; other programs stay as they
@@ -267,9 +268,12 @@ fn declared(
     let mut programs = Vec::new();
     for run in runs {
         let mut labels = Labels::below(Rc::clone(&global));
-        for section in &tree.units[run.unit].sections {
+        let unit = &tree.units[run.unit];
+        cx.program = format!("{}.", unit.name.text);
+        for section in &unit.sections {
             labels.declare(section, &mut cx);
         }
+        cx.program.clear();
         programs.push(Rc::new(labels));
     }
     let functions = functions_of(&mut cx);
@@ -294,16 +298,12 @@ fn functions_of(cx: &mut Declaring) -> BTreeMap<String, Rc<Instance>> {
                 .push(error.help(format!("write `FUNCTION {} : INT`", name.text)));
             continue;
         }
-        let mut keywords = unit.sections.iter().map(|section| &section.keyword);
-        if let Some(reference) = keywords.find(|keyword| keyword.text == "VAR_IN_OUT") {
-            let what = "VAR_IN_OUT of a function is not compiled yet";
-            cx.found
-                .push(codes::ST_UNSUPPORTED.at(reference.span, what));
-        }
         cx.path = format!("{}.", name.text);
         let instance = Instance::declared(at, cx);
         cx.path.clear();
-        functions.insert(name.text.to_uppercase(), Rc::new(instance));
+        // Another one of this name is reported.
+        let key = name.text.to_uppercase();
+        functions.entry(key).or_insert_with(|| Rc::new(instance));
     }
     functions
 }

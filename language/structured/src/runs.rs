@@ -48,7 +48,9 @@ pub(crate) fn of(tree: &Text, found: &mut Vec<Diagnostic>) -> Vec<Run> {
         found.push(error.other(first.head, "the first one"));
     }
     let runs = configured(tree, first, found);
-    for program in programs {
+    // A line with a mistake may have been meant for one of them.
+    let programs = programs.into_iter().filter(|_| !crate::has_errors(found));
+    for program in programs.collect::<Vec<_>>() {
         if !runs.iter().any(|run| run.unit == program.unit) {
             let name = &tree.units[program.unit].name;
             let what = format!("no task runs `{}`", name.text);
@@ -157,22 +159,25 @@ fn is_always(value: &Expr) -> bool {
     matches!(&value.kind, ExprKind::Name(name) if name.eq_ignore_ascii_case("TRUE"))
 }
 
-/// Reports names that several units, structures or global labels have. Labels of one kind are compared where they are
-/// declared.
+/// Reports names that several units or structures have, and global labels with the name of a function. Labels are
+/// compared with each other where they are declared; as in GX Works2, an instance may have the name of its block.
 pub(crate) fn declared_twice(tree: &Text, found: &mut Vec<Diagnostic>) {
-    let mut names: BTreeMap<String, Span> = BTreeMap::new();
+    let mut names: BTreeMap<String, (Span, bool)> = BTreeMap::new();
     let units = tree.units.iter().filter(|unit| !unit.is_library);
-    let structures = tree.structures.iter().map(|structure| &structure.name);
-    for name in units.map(|unit| &unit.name).chain(structures) {
-        if let Some(before) = names.get(&name.text.to_uppercase()) {
-            found.push(twice(name, *before));
-            continue;
+    let units = units.map(|unit| (&unit.name, unit.kind == UnitKind::Function));
+    let structures = tree.structures.iter().map(|one| (&one.name, false));
+    for (name, is_function) in units.chain(structures) {
+        let key = name.text.to_uppercase();
+        match names.get(&key) {
+            Some((before, _)) => found.push(twice(name, *before)),
+            None => {
+                names.insert(key, (name.span, is_function));
+            }
         }
-        names.insert(name.text.to_uppercase(), name.span);
     }
     let variables = tree.globals.iter().flat_map(|section| &section.variables);
     for name in variables.flat_map(|variable| &variable.names) {
-        if let Some(before) = names.get(&name.text.to_uppercase()) {
+        if let Some((before, true)) = names.get(&name.text.to_uppercase()) {
             found.push(twice(name, *before));
         }
     }

@@ -186,7 +186,13 @@ fn what_is_not_compiled_has_a_reason() {
          END_STRUCT\nEND_TYPE\nPROGRAM P\nVAR\n    a : A;\nEND_VAR\nEND_PROGRAM\n",
     );
     all += &shown(
-        "PROGRAM P\nVAR\n    t : ARRAY [0..3] OF TON;\n    u AT D0 : CTU;\nEND_VAR\nEND_PROGRAM\n",
+        "PROGRAM P\nVAR\n    t : ARRAY [0..3] OF TON;\n    u AT D0 : CTU;\nEND_VAR\n\
+         t[4](IN := X0);\nt[D0](IN := X0);\nY0 := t[D0].Q;\nt(IN := X0);\nY1 := Y2[3];\nEND_PROGRAM\n",
+    );
+    all += &shown(
+        "FUNCTION Bump : INT\nVAR_IN_OUT\n    n : INT;\nEND_VAR\nn := n + 1;\nBump := n;\nEND_FUNCTION\n\
+         PROGRAM P\nVAR\n    x : ARRAY [0..3] OF INT;\nEND_VAR\n\
+         D0 := Bump(5);\nD0 := Bump(D1 + 1);\nD0 := Bump(x[D1]);\nD0 := Bump();\nEND_PROGRAM\n",
     );
     all += &shown(&parts(
         "i := One;\nOne := 5;\nOne := x;\nx[c] := 1;\nx[10] := 1;\nOne.Sped := 1;\nx := x;\nSET(c, f[i]);\n\
