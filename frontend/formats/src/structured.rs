@@ -92,7 +92,9 @@ pub(crate) fn read_files(
 /// A path as seen from the current folder, where it lies below it.
 fn near(path: &Path) -> &Path {
     let folder = std::env::current_dir().and_then(dunce::canonicalize);
-    let below = folder.ok().and_then(|folder| path.strip_prefix(folder).ok());
+    let below = folder
+        .ok()
+        .and_then(|folder| path.strip_prefix(folder).ok());
     let path = below.unwrap_or(path);
     path.strip_prefix(".").unwrap_or(path)
 }

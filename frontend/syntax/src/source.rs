@@ -227,7 +227,11 @@ mod tests {
 
     #[test]
     fn lines_are_those_of_each_file() {
-        let files = [("a.st", "one\ntwo"), ("b.st", ""), ("c.st", "three\nfour\n")];
+        let files = [
+            ("a.st", "one\ntwo"),
+            ("b.st", ""),
+            ("c.st", "three\nfour\n"),
+        ];
         let files = files.map(|(path, text)| (path.to_owned(), text.to_owned()));
         let source = Source::joined("all", files);
         let place = |offset| {
@@ -239,7 +243,11 @@ mod tests {
         assert_eq!(place(8), ("c.st", 1, 1));
         assert_eq!(place(15), ("c.st", 2, 2));
         assert!(source.is_one_line(8, 13) && !source.is_one_line(5, 8));
-        let texts: Vec<_> = source.spans().into_iter().map(|s| source.slice(s)).collect();
+        let texts: Vec<_> = source
+            .spans()
+            .into_iter()
+            .map(|s| source.slice(s))
+            .collect();
         assert_eq!(texts, ["one\ntwo\n", "", "three\nfour\n"]);
     }
 

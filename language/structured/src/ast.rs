@@ -103,6 +103,8 @@ pub(crate) struct Section {
 pub(crate) struct Variable {
     pub names: Vec<Name>,
     pub place: Option<Expr>,
+    /// Devices of members of a structure: `AT (Home := X0, Position := D10)`.
+    pub members: Vec<(Name, Expr)>,
     pub of: TypeName,
     pub initial: Option<Expr>,
     /// False if the semicolon is missing.

@@ -1,10 +1,11 @@
 //! The labels of a program: their types, and their devices.
 
 use crate::ast::{Expr, ExprKind, Name, Section, Unit, UnitKind, Variable};
-use crate::device::{self, Place};
+use crate::device;
 use crate::layout::{Structures, Type};
 use crate::literal::{Const, Literal, range};
 use crate::ranges::{Free, Ranges};
+use crate::stated::{stated, stated_members, suits};
 use crate::types::{Fit, Ty};
 use crate::{Known, blocks, calls, convert, fold};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, OperandKind, Span, codes};
@@ -148,9 +149,7 @@ impl Supply {
             t: Free::new(DeviceClass::T, ranges.t),
             c: Free::new(DeviceClass::C, ranges.c),
             p: Free::new(DeviceClass::P, ranges.p),
-            ticks: ranges
-                .ticks
-                .map(|ticks| Free::new(DeviceClass::T, ticks)),
+            ticks: ranges.ticks.map(|ticks| Free::new(DeviceClass::T, ticks)),
         }
     }
 
@@ -292,7 +291,8 @@ impl Labels {
 
     fn variable(&mut self, variable: &Variable, is_constant: bool, role: Role, cx: &mut Declaring) {
         if let Some(unit) = block_of(variable, cx.units) {
-            if let Some(place) = &variable.place {
+            let stated = variable.members.iter().map(|(_, device)| device);
+            if let Some(place) = variable.place.iter().chain(stated).next() {
                 let what = "a function block gets its devices by itself";
                 let error = codes::ST_UNSUPPORTED.at(place.span, what);
                 cx.found.push(error.help("leave out `AT`"));
@@ -485,6 +485,7 @@ impl Instance {
             let result = Variable {
                 names: vec![block.name.clone()],
                 place: None,
+                members: Vec::new(),
                 of: of.clone(),
                 initial: None,
                 is_ended: true,
@@ -550,70 +551,6 @@ fn block_of(variable: &Variable, units: &[Unit]) -> Option<usize> {
     units.iter().position(is_this)
 }
 
-/// The device that a declaration states.
-fn stated(place: &Expr, found: &mut Vec<Diagnostic>) -> Option<Place> {
-    let device = match &place.kind {
-        ExprKind::Name(name) => device::find(name),
-        ExprKind::Address(address) => device::address(address),
-        ExprKind::Member(of, bit) => {
-            let word = of.name().and_then(device::find);
-            let bit = word.and_then(|(word, _)| device::bit(&word, bit));
-            bit.map(|bit| (bit, Ty::Bool))
-        }
-        _ => None,
-    };
-    if device.is_none() {
-        let error = codes::ST_UNKNOWN_NAME.at(place.span, "this is not a device");
-        found.push(error.help("write for example `AT X0`, `AT D10`, `AT D10.3` or `AT K4M0`"));
-    }
-    device
-}
-
-/// The device of a label, or the first one of an array, if it suits the type.
-fn suits(
-    (operand, of): Place,
-    label: &Type,
-    variable: &Variable,
-) -> Result<Stored, Box<Diagnostic>> {
-    let span = variable
-        .place
-        .as_ref()
-        .map_or(variable.span, |place| place.span);
-    let Some(ty) = label.element() else {
-        let what = "a structure gets its devices by itself";
-        let error = codes::ST_UNSUPPORTED.at(span, what);
-        return Err(error.help("leave out `AT`").into());
-    };
-    let is_bit_device = of == Ty::Bool;
-    let suits = match ty {
-        Ty::Bool => of.is_bit(),
-        Ty::Timer => of.is_bit() && !is_bit_device,
-        _ => !is_bit_device,
-    };
-    match (&operand, label.plain()) {
-        (_, Some(_)) if suits => return Ok(Stored::Device(operand)),
-        (OperandKind::Device(first, None), None) if suits => {
-            let is_bits = ty == Ty::Bool;
-            return Ok(Stored::Area(Area {
-                bits: is_bits.then_some(*first),
-                words: (!is_bits).then_some(*first),
-                members: BTreeMap::new(),
-            }));
-        }
-        _ => {}
-    }
-    let what = match label.plain() {
-        Some(ty) => format!("`{operand}` cannot hold {ty}"),
-        None => format!("an array cannot begin at `{operand}`"),
-    };
-    let help = match ty {
-        Ty::Bool => "a BOOL is an X, Y, M, S, or a bit of a word",
-        Ty::Timer => "a TIMER is a T, a COUNTER a C",
-        _ => "a number is a D, R, T, C, or a group of bits such as `K4M0`",
-    };
-    Err(codes::ST_NO_DEVICE.at(span, what).help(help).into())
-}
-
 /// Devices for a label that states none.
 fn chosen(
     label: &Label,
@@ -629,13 +566,21 @@ fn chosen(
         _ => DeviceClass::D,
     };
     let mut area = Area::default();
+    if let (Some((member, _)), None) = (variable.members.first(), label.of.structure()) {
+        let what = format!("`{}` has no members", label.name);
+        return Err(codes::ST_TYPE.at(member.span, what).into());
+    }
     if let Type::Structure(structure) = &label.of {
+        area.members = stated_members(structure, variable)?;
         let members = structure.members.iter().filter_map(|member| {
             let member = member.name.to_uppercase();
             let device = cx.known(&format!("{name}.{member}"))?;
             Some((member, device))
         });
-        area.members = members.collect();
+        let known: Vec<_> = members.collect();
+        for (member, device) in known {
+            area.members.entry(member).or_insert(device);
+        }
         if area.members.len() == structure.members.len() {
             return Ok(Stored::Area(area));
         }

@@ -107,6 +107,14 @@ impl Type {
         }
     }
 
+    /// The structure, if it is one.
+    pub(crate) fn structure(&self) -> Option<&Structure> {
+        match self {
+            Type::Structure(structure) => Some(structure),
+            _ => None,
+        }
+    }
+
     /// The elementary type of an element, however many dimensions there are; `None` in structures.
     pub(crate) fn element(&self) -> Option<Ty> {
         match self {

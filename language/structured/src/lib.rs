@@ -24,6 +24,7 @@ mod ranges;
 mod routines;
 mod runs;
 mod shape;
+mod stated;
 mod statements;
 mod token;
 mod types;
@@ -33,11 +34,11 @@ use ast::{Text, UnitKind};
 use emit::Compiler;
 use labels::{Declaring, Instance, Label, Labels, Stored, Supply};
 use layout::Structures;
-use runs::Run;
 use rungc_models::Model;
 use rungc_syntax::{
     Device, Diagnostics, Instr, OperandKind, Program, Severity, Source, SourceKind, Span, codes,
 };
+use runs::Run;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::mem;
@@ -222,7 +223,9 @@ fn compiled(
             unused(labels, found);
         }
     }
-    let names = runs.iter().map(|run| tree.units[run.unit].name.text.as_str());
+    let names = runs
+        .iter()
+        .map(|run| tree.units[run.unit].name.text.as_str());
     Some(Compiled {
         name: first.text.to_string(),
         comments: comments(&global, names.zip(&programs)),

@@ -109,7 +109,9 @@ fn place(matched: &mut Matched) -> Span {
 
 fn place_in(tokens: &[Lexeme], span: SimpleSpan) -> Span {
     let end = |at: usize| {
-        let last = at.checked_sub(1).map(|at| at.min(tokens.len().saturating_sub(1)));
+        let last = at
+            .checked_sub(1)
+            .map(|at| at.min(tokens.len().saturating_sub(1)));
         let last = last.and_then(|at| tokens.get(at));
         let first = || tokens.first().map_or(0, |first| first.span.start);
         last.map_or_else(first, |lexeme| lexeme.span.end)

@@ -58,13 +58,7 @@ static FX3S: Ranges = without_ticks(ranges(
 ));
 static FX2N: Ranges = ranges((512, 999), (100, 199), (100, 199), (512, 1535), (30, 127));
 static FX1N: Ranges = ranges((400, 999), (100, 199), (100, 199), (512, 1535), (30, 127));
-static FX1S: Ranges = without_ticks(ranges(
-    (128, 255),
-    (16, 31),
-    (16, 31),
-    (256, 511),
-    (30, 62),
-));
+static FX1S: Ranges = without_ticks(ranges((128, 255), (16, 31), (16, 31), (256, 511), (30, 62)));
 
 /// The reserved devices for a model. Models of other makers have those of the Mitsubishi model whose projects they
 /// take.

@@ -100,7 +100,9 @@ fn configured(tree: &Text, all: &Configuration, found: &mut Vec<Diagnostic>) -> 
             continue;
         };
         let name = task.text.to_uppercase();
-        let key = keys.get(&name).map(|(priority, _)| (*priority, name.clone()));
+        let key = keys
+            .get(&name)
+            .map(|(priority, _)| (*priority, name.clone()));
         match key.and_then(|key| tasks.get_mut(&key)) {
             Some((_, runs)) => runs.push(Run {
                 unit,
@@ -129,7 +131,9 @@ fn settings(task: &Task, found: &mut Vec<Diagnostic>) -> (i64, Option<(i64, Span
         match (name.as_str(), number(value)) {
             ("PRIORITY", Some(number)) => priority = number,
             ("INTERVAL", Some(0)) => {}
-            ("INTERVAL", Some(number)) if number % TICK == 0 && (TICK..=LONGEST).contains(&number) => {
+            ("INTERVAL", Some(number))
+                if number % TICK == 0 && (TICK..=LONGEST).contains(&number) =>
+            {
                 every = Some((number, value.span));
             }
             ("INTERVAL", Some(_)) => {
@@ -143,7 +147,9 @@ fn settings(task: &Task, found: &mut Vec<Diagnostic>) -> (i64, Option<(i64, Span
             ("SINGLE", _) => {
                 let what = "tasks that a bit or an interrupt starts are not compiled yet";
                 let error = codes::ST_UNSUPPORTED.at(value.span, what);
-                found.push(error.help("run the program in each scan, with `IF` around its statements"));
+                found.push(
+                    error.help("run the program in each scan, with `IF` around its statements"),
+                );
             }
             _ => {
                 let what = format!("a task has no setting `{}`", key.text);
@@ -215,7 +221,8 @@ impl Compiler<'_> {
         let (Some(timer), Some(pointer)) = (self.supply.tick(), self.supply.pointer()) else {
             let what = "no timer of 10 ms is left for this task";
             let error = codes::ST_NO_DEVICE.at(span, what);
-            self.found.push(error.help("leave out INTERVAL, and use TON in the program"));
+            self.found
+                .push(error.help("leave out INTERVAL, and use TON in the program"));
             return None;
         };
         let timer = self.here(OperandKind::Device(timer, None));

@@ -219,7 +219,8 @@ fn a_folder_of_structured_text_is_a_program() {
     let checked = rungc(path, &["check", "."]);
     assert!(checked.status.success(), "{}", text(&checked.stderr));
     // The settings name an order of their own; each file stands for all.
-    let settings = "[project]\nprogram = [\"Second.st\", \"Main.st\", \"Global.st\", \"parts/Twice.st\"]\n";
+    let settings =
+        "[project]\nprogram = [\"Second.st\", \"Main.st\", \"Global.st\", \"parts/Twice.st\"]\n";
     write(path, &[("rungc.toml", settings)]);
     for arguments in [
         &["convert", "--to", "il"][..],
@@ -229,7 +230,10 @@ fn a_folder_of_structured_text_is_a_program() {
         let list = rungc(path, arguments);
         let list = text(&list.stdout);
         let order = ["; Y1 := ", "; Y0 := "].map(|statement| list.find(statement));
-        assert!(order[0].is_some() && order[0] < order[1], "{arguments:?}: {list}");
+        assert!(
+            order[0].is_some() && order[0] < order[1],
+            "{arguments:?}: {list}"
+        );
     }
     let checked = rungc(path, &["check", "."]);
     assert!(checked.status.success(), "{}", text(&checked.stderr));

@@ -60,7 +60,9 @@ pub fn compared(read: &Read, effort: &Effort) -> Result<String, Problem> {
     let is_proved = |verdict: &Verdict| matches!(verdict, Verdict::Proved);
     let proved = outputs.iter().filter(|one| is_proved(&one.verdict)).count();
     let all = outputs.len();
-    Ok(format!("{round}; {ran}; {proved} of {all} outputs proved the same"))
+    Ok(format!(
+        "{round}; {ran}; {proved} of {all} outputs proved the same"
+    ))
 }
 
 fn module(program: &Program) -> Option<Module> {
@@ -123,7 +125,10 @@ fn run(modules: [&Module; 2], devices: &BTreeSet<Device>, effort: &Effort) -> St
     });
     let devices = values / u64::from(effort.scans.max(1));
     let changing = changing.count();
-    format!("equal over {} scans in {devices} devices, of which {changing} change", effort.scans)
+    format!(
+        "equal over {} scans in {devices} devices, of which {changing} change",
+        effort.scans
+    )
 }
 
 fn write(machine: &mut Machine, Device { class, number }: Device, value: i16) {
@@ -161,9 +166,9 @@ impl Random {
 #[cfg(test)]
 mod tests {
     use super::{Effort, compared};
-    use rungc_verify::prove::EFFORT;
     use rungc_frontend::Read;
     use rungc_frontend::sources::{Body, Pou, PouKind, Sources, Task};
+    use rungc_verify::prove::EFFORT;
 
     const TEXT: &str = "Y0 := X0 AND X1;\nIF X2 THEN\n  D0 := D0 + 1;\nEND_IF;\n";
 
@@ -207,10 +212,14 @@ mod tests {
         assert_eq!(same, expected);
         let other = compared(&project(&TEXT.replace("AND", "OR")), &effort).unwrap();
         assert!(
-            other.contains("another list; Y000 is") && other.ends_with("0 of 1 outputs proved the same"),
+            other.contains("another list; Y000 is")
+                && other.ends_with("0 of 1 outputs proved the same"),
             "{other}"
         );
         let missing = compared(&project("Y0 := Start;\n"), &effort).unwrap();
-        assert_eq!(missing, "its files do not compile: nothing declares `Start`");
+        assert_eq!(
+            missing,
+            "its files do not compile: nothing declares `Start`"
+        );
     }
 }

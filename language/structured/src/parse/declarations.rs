@@ -254,7 +254,17 @@ fn variable<'t>() -> Rule<'t, Variable> {
         .separated_by(sign(","))
         .at_least(1)
         .collect::<Vec<_>>();
-    let place_of = keyword("AT").ignore_then(device());
+    let member = name().then_ignore(sign(":=")).then(device());
+    let members = member
+        .separated_by(sign(","))
+        .at_least(1)
+        .collect::<Vec<_>>();
+    let members = members.delimited_by(sign("("), sign(")"));
+    let place_of = keyword("AT").ignore_then(choice((
+        members.map(|members| (None, members)).boxed(),
+        device().map(|device| (Some(device), Vec::new())).boxed(),
+    )));
+    let place_of = place_of.boxed();
     let initial = sign(":=").ignore_then(choice((expression(), values())));
     names
         .then(place_of.or_not())
@@ -262,16 +272,18 @@ fn variable<'t>() -> Rule<'t, Variable> {
         .then(type_name())
         .then(initial.or_not())
         .then(semicolon())
-        .map_with(
-            |((((names, place_of), of), initial), is_ended), e| Variable {
+        .map_with(|((((names, place_of), of), initial), is_ended), e| {
+            let (stated, members) = place_of.unwrap_or_default();
+            Variable {
                 names,
-                place: place_of,
+                place: stated,
+                members,
                 of,
                 initial,
                 is_ended,
                 span: place(e),
-            },
-        )
+            }
+        })
         .boxed()
 }
 

@@ -260,3 +260,19 @@ fn functions_change_what_they_are_given_to_change() {
         assert_eq!([0, 1].map(|number| machine.output(number)), [true, true]);
     }
 }
+
+#[test]
+fn members_have_stated_devices() {
+    let text = "TYPE Axis :\nSTRUCT\n    On : BOOL;\n    Place : DINT;\n    Was : INT;\n    Now : BOOL;\nEND_STRUCT\nEND_TYPE\n\
+         PROGRAM P\nVAR\n    Copy : Axis;\n    First AT (On := X0, Place := D10, Now := Y5) : Axis;\nEND_VAR\n\
+         First.Now := First.On;\nFirst.Place := 100000;\nFirst.Was := 7;\nCopy := First;\nD0 := Copy.Was;\n\
+         IF Copy.Place = 100000 THEN\n    Y1 := Copy.Now;\nEND_IF;\nEND_PROGRAM\n";
+
+    let module = module(text, ModelId::Fx3u);
+    let mut machine = Machine::new(&module);
+    machine.set_bit(Class::X, 0, true);
+    machine.scan(&mut NoHal, 0, 10_000);
+    assert_eq!([1, 5].map(|number| machine.output(number)), [true; 2]);
+    let words = [0, 10, 11].map(|number| machine.word(Class::D, number).unwrap());
+    assert_eq!(words, [7, (100_000 % 65_536) as u16 as i16, 1]);
+}

@@ -32,9 +32,15 @@ fn compiled(files: &[(&str, &str)], model: ModelId) -> String {
         .iter()
         .map(|one| {
             let others = one.others.iter();
-            let others = others.map(|other| format!("; {} at {}", other.text, place(other.span.start)));
+            let others =
+                others.map(|other| format!("; {} at {}", other.text, place(other.span.start)));
             let others: String = others.collect();
-            format!("{} {}: {}{others}", one.code, place(one.span.start), one.message)
+            format!(
+                "{} {}: {}{others}",
+                one.code,
+                place(one.span.start),
+                one.message
+            )
         })
         .collect();
     lines.extend(program.instrs.iter().map(ToString::to_string));
@@ -83,7 +89,10 @@ fn tasks_state_the_order() {
     insta::assert_snapshot!(compiled(&files, ModelId::Fx3u));
     // Without timers of 10 ms.
     let found = compiled(&files, ModelId::Fx1s);
-    assert!(found.starts_with("E0209 tasks.st:3:42: no timer of 10 ms is left"), "{found}");
+    assert!(
+        found.starts_with("E0209 tasks.st:3:42: no timer of 10 ms is left"),
+        "{found}"
+    );
 }
 
 #[test]
@@ -92,7 +101,14 @@ fn mistakes_are_reported_in_their_files() {
                  PROGRAM First WITH Gone;\nPROGRAM Ladder WITH T1;\nPROGRAM First;\nEND_CONFIGURATION\n";
     let again = "(* open\n*)\nFUNCTION Twice : INT\nTwice := 1;\nEND_FUNCTION\nVAR_GLOBAL Level : INT; END_VAR\n";
     let open = "FUNCTION Open : INT\nOpen := Missing;\n(* never closed";
-    let files = [FIRST, GLOBAL, LAMP, TWICE, ("Again.st", again), ("Open.st", open)];
+    let files = [
+        FIRST,
+        GLOBAL,
+        LAMP,
+        TWICE,
+        ("Again.st", again),
+        ("Open.st", open),
+    ];
     insta::assert_snapshot!(compiled(&files, ModelId::Fx3u));
     let files = [FIRST, GLOBAL, LAMP, TWICE, SECOND, ("tasks.st", tasks)];
     insta::assert_snapshot!(compiled(&files, ModelId::Fx3u));

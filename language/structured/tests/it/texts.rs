@@ -206,6 +206,11 @@ fn what_is_not_compiled_has_a_reason() {
          PROGRAM P\nVAR\n    t : TON;\nEND_VAR\nD0 := F();\nD0 := F(1, 2);\nD0 := F(1);\nD0 := F(m := 1);\n\
          t(X0);\nt(In := X0, PT := 5.5);\nt(PP := 1);\nY0 := t.R;\nt();\nEND_PROGRAM\n",
     );
+    all += &shown(
+        "TYPE A :\nSTRUCT\n    b : BOOL;\n    n : INT;\nEND_STRUCT\nEND_TYPE\nPROGRAM P\nVAR\n    \
+         a AT (b := D5) : A;\n    c AT (x := M5) : A;\n    d AT (n := D5, N := D6) : A;\n    \
+         e AT (n := D5) : INT;\n    t AT (Q := M0) : TON;\nEND_VAR\nEND_PROGRAM\n",
+    );
     insta::assert_snapshot!(all);
 }
 
