@@ -252,7 +252,7 @@ impl Whole<'_> {
 }
 
 /// Devices that the editor chose for labels of a program and for global ones, and those of members of structures, which
-/// no text states. Those of other programs stand behind their names.
+/// no text states. The names of other programs stand before theirs.
 pub(crate) fn known(sources: &Sources, program: &str) -> Known {
     let local = format!("{program}.");
     let mut known = Known::new();

@@ -115,7 +115,7 @@ pub(crate) fn files(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Returns true if the files of a folder are one program: it has files of structured text, and one of them states the
-/// tasks, or has no program of its own.
+/// tasks, or has no program.
 pub(crate) fn is_project(folder: &Path) -> bool {
     let Ok(entries) = std::fs::read_dir(folder) else {
         return false;

@@ -360,7 +360,7 @@ impl Labels {
                 span: name.span,
             };
             self.instance(&element, unit, cx);
-            // One that is not used is no mistake if others are.
+            // Some of them may be without a use.
             self.own(&element.text);
             // The last dimension counts first.
             let next = (0..index.len()).rev().find(|at| index[*at] < bounds[*at].1);

@@ -171,7 +171,7 @@ fn file_of(findings: &Findings, span: Span) -> Option<u32> {
     Some(program.source.part(span.start)?.start)
 }
 
-/// What stands above the lines of each file: the place of the finding, and the first place in the others.
+/// Heads of the files: the place of the finding, and the first place in the others.
 fn heads(
     findings: &Findings,
     span: Span,

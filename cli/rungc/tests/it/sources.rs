@@ -218,7 +218,7 @@ fn a_folder_of_structured_text_is_a_program() {
     assert!(order[0].is_some() && order[0] < order[1], "{list}");
     let checked = rungc(path, &["check", "."]);
     assert!(checked.status.success(), "{}", text(&checked.stderr));
-    // The settings name an order of their own; each file stands for all.
+    // The settings name another order; each file stands for all.
     let settings =
         "[project]\nprogram = [\"Second.st\", \"Main.st\", \"Global.st\", \"parts/Twice.st\"]\n";
     write(path, &[("rungc.toml", settings)]);

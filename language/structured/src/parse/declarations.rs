@@ -87,7 +87,7 @@ fn configuration<'t>() -> Rule<'t, Configuration> {
     let of_task = keyword("WITH").ignore_then(name()).or_not();
     let program = keyword("PROGRAM").ignore_then(name()).then(of_task);
     let program = program.then(sign(":").ignore_then(name()).or_not());
-    // An instance of a program has its type behind a colon.
+    // An instance of a program has its type after a colon.
     let program = program.map(|((name, task), of)| {
         let program = of.unwrap_or(name);
         Row::Program(Runs { program, task })

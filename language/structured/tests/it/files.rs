@@ -76,7 +76,7 @@ fn units_of_all_files_are_one_program() {
     assert_eq!(found.iter().count(), 0, "{found:?}");
     let list: Vec<_> = program.instrs.iter().map(ToString::to_string).collect();
     insta::assert_snapshot!(list.join("\n"));
-    // Labels of one name stand behind their programs.
+    // Labels of one name stand after their programs.
     let comments: Vec<_> = program.comments.values().collect();
     insta::assert_snapshot!(format!("{comments:?}"));
 }

@@ -61,7 +61,7 @@ fn line(label: &Label, sources: &Sources, path: &str, chosen: &Chosen) -> String
         let _ = write!(line, " := {}", label.initial);
     }
     line.push(';');
-    // Structures in an array have no names of their own.
+    // Structures in an array have no separate names.
     let unnamed = members.iter().filter(|_| stated.is_none());
     let mut remarks: Vec<_> = unnamed
         .map(|(name, device)| format!(".{} AT {device}", name.unwrap_or_default()))
