@@ -207,7 +207,7 @@ mod tests {
             proofs: EFFORT,
         };
         let same = compared(&project(TEXT), &effort).unwrap();
-        let expected = "the written files compile to the same list; equal over 2000 scans in 2 devices, of which 2 \
+        let expected = "the written files compile to the same list; equal over 2000 scans in 65 devices, of which 2 \
                         change; 1 of 1 outputs proved the same";
         assert_eq!(same, expected);
         let other = compared(&project(&TEXT.replace("AND", "OR")), &effort).unwrap();
