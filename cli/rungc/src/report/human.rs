@@ -131,23 +131,13 @@ fn draw(findings: &Findings, name: &str, d: &Diagnostic, style: Style) -> io::Re
     if let Some(help) = &d.help {
         report.add_help(marked(&visible_line(help)));
     }
-    let more = d.others.len().saturating_sub(MAX_PLACES);
-    if more > 0 {
-        let more = more.to_string();
-        let more = message(language, "more-places", &[("count", (&more).into())]);
-        report.add_note(marked(&more));
+    let hidden = d.others.len().saturating_sub(MAX_PLACES);
+    if hidden > 0 {
+        let count = hidden.to_string();
+        let places = message(language, "more-places", &[("count", (&count).into())]);
+        report.add_note(marked(&places));
     }
-    let number = d.plc_error.map(|number| number.to_string());
-    let id = if number.is_some() {
-        "more-of-plc"
-    } else {
-        "more"
-    };
-    let arguments = [
-        ("code", d.code.into()),
-        ("number", number.as_deref().unwrap_or_default().into()),
-    ];
-    report.add_note(marked(&message(language, id, &arguments)));
+    report.add_note(marked(&more(d, language)));
     let mut drawn = Vec::new();
     let sources = heads.values().map(|head| (head.clone(), source.clone()));
     let cache = ariadne::sources(sources);
@@ -163,6 +153,21 @@ fn draw(findings: &Findings, name: &str, d: &Diagnostic, style: Style) -> io::Re
         // The library colours the heading even where colours are off.
         false => anstream::adapter::strip_str(&drawn).to_string(),
     })
+}
+
+/// The note on how to read more about a diagnostic.
+fn more(d: &Diagnostic, language: Language) -> String {
+    let number = d.plc_error.map(|number| number.to_string());
+    let id = if number.is_some() {
+        "more-of-plc"
+    } else {
+        "more"
+    };
+    let arguments = [
+        ("code", d.code.into()),
+        ("number", number.as_deref().unwrap_or_default().into()),
+    ];
+    message(language, id, &arguments)
 }
 
 /// Start of the file that holds a span, where a program is made of several.
