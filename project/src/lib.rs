@@ -46,6 +46,8 @@ pub struct Project {
     pub source: Source,
     /// The program that the project is about: `[project] program`.
     pub program: Option<PathBuf>,
+    /// All files of the program, where `[project] program` lists several in structured text; each stands for all.
+    pub parts: Vec<PathBuf>,
     /// Position of `[project] program`.
     pub program_span: Span,
     /// The PLC model: `[project] model`.
@@ -321,6 +323,7 @@ impl Project {
             encoding: self.encoding,
             names: self.plcopen.clone(),
             compiled_state: self.compiled.clone(),
+            parts: self.parts.iter().map(|part| self.at(part)).collect(),
             ..ReadOptions::default()
         }
     }
@@ -340,11 +343,28 @@ impl Project {
         !(self.properties.is_empty() && self.uses.is_empty())
     }
 
-    /// Returns true if this file is the program of the project.
+    /// Returns true if this file is the program of the project, or one of several that are.
     pub fn is_about(&self, file: &Path) -> bool {
         let place = |path: &Path| path.canonicalize().ok();
-        self.program()
-            .is_some_and(|program| place(&program).is_some_and(|p| Some(p) == place(file)))
+        let parts = self.parts.iter().map(|part| self.at(part));
+        let mut all = self.program().into_iter().chain(parts);
+        let file = place(file);
+        file.is_some() && all.any(|program| place(&program) == file)
+    }
+
+    /// The first file of the program, for one of several that are it, or for their folder; other files stand for
+    /// themselves.
+    pub fn whole(&self, file: PathBuf) -> PathBuf {
+        let is_own = |folder: &Path| folder.is_dir() && folder.canonicalize().ok() == self.folder();
+        match self.program().filter(|_| !self.parts.is_empty()) {
+            Some(program) if self.is_about(&file) || is_own(&file) => program,
+            _ => file,
+        }
+    }
+
+    /// The folder of the file.
+    fn folder(&self) -> Option<PathBuf> {
+        self.at(Path::new(".")).canonicalize().ok()
     }
 }
 

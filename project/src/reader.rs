@@ -349,11 +349,33 @@ impl Reader {
             .collect()
     }
 
-    fn project(&mut self, table: &DeTable<'_>, project: &mut Project) {
-        if let Some(program) = self.get(table, "program") {
-            project.program = Some(PathBuf::from(program.text));
-            project.program_span = program.span;
+    /// `program = "Main.st"`, or the list of its files.
+    fn program(&mut self, table: &DeTable<'_>, project: &mut Project) {
+        let is_list = |value: &Value| value.get_ref().is_array();
+        let is_list = table.get("program").is_some_and(is_list);
+        let files = match is_list {
+            true => self.list(table, "program"),
+            false => self.get(table, "program").into_iter().collect(),
+        };
+        if let Some(first) = files.first() {
+            project.program = Some(PathBuf::from(&first.text));
+            project.program_span = first.span;
         }
+        if files.len() < 2 {
+            return;
+        }
+        let is_text = |file: &&Named| !file.text.to_ascii_lowercase().ends_with(".st");
+        if let Some(other) = files.iter().find(is_text) {
+            let message = format!("`{}` is not a file in structured text", other.text);
+            let help = "only files that end in `.st` are one program; name others one at a time";
+            self.wrong(other.span, message, help);
+        }
+        let parts = files.into_iter().map(|file| PathBuf::from(file.text));
+        project.parts = parts.collect();
+    }
+
+    fn project(&mut self, table: &DeTable<'_>, project: &mut Project) {
+        self.program(table, project);
         if let Some(name) = self.get(table, "model") {
             match Plc::named(&name.text) {
                 Ok(plc) => (project.model, project.variant) = (Some(plc.model), plc.variant),

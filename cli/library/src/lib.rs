@@ -49,6 +49,7 @@ pub mod other_model;
 mod plc;
 mod program;
 mod project;
+pub mod recompiled;
 pub mod settings;
 pub mod sources;
 pub mod structured;

@@ -10,6 +10,9 @@ pub struct Location {
     /// Bytes of the text, or of the listing that stands for another source.
     #[serde(skip)]
     pub span: Span,
+    /// The file, where the program is made of several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
     /// First line, 1-based, where the source is a text: an instruction list, or a list export.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<u32>,
@@ -43,8 +46,10 @@ impl Location {
         if program.kind.is_text() {
             let (line, column) = program.source.line_col(span.start);
             let (end_line, end_column) = program.source.line_col(span.end);
+            let part = program.source.part(span.start);
             return Location {
                 span,
+                file: part.map(|part| part.path.clone()),
                 line: Some(line),
                 column: Some(column),
                 end_line: Some(end_line),
@@ -76,6 +81,7 @@ impl Location {
 
     /// The location as the head of a drawing: `motor.il:3:4`, `Packer.gxw · MAIN · step 37`.
     pub fn headed(&self, name: &str) -> String {
+        let name = self.file.as_deref().unwrap_or(name);
         if let (Some(line), Some(column)) = (self.line, self.column) {
             return format!("{name}:{line}:{column}");
         }
@@ -125,7 +131,7 @@ pub fn instr_at(program: &Program, offset: u32) -> Option<usize> {
     let at = next.checked_sub(1)?;
     let end = program.instrs[at].span.end;
     let source = &program.source;
-    (offset <= end || source.line(offset) == source.line(end)).then_some(at)
+    (offset <= end || source.is_one_line(offset, end)).then_some(at)
 }
 
 /// Name of the program in the editor of a project or an export.

@@ -14,6 +14,7 @@ pub fn reading(settings: &Settings, mut given: ReadOptions) -> ReadOptions {
     let usual = settings.reading();
     given.learned = usual.learned;
     given.compiled_state = usual.compiled_state;
+    given.parts = usual.parts;
     given.encoding = given.encoding.or(usual.encoding);
     let names = std::mem::replace(&mut given.names, usual.names);
     given.names.devices.extend(names.devices);

@@ -196,8 +196,9 @@ fn texts(sources: &Sources) -> Texts {
     };
     for file in sources.to_st() {
         let text = String::from_utf8_lossy(&file.contents).into_owned();
+        let is_tasks = text.starts_with("CONFIGURATION");
         match is_program(&file.path) {
-            _ if !file.path.ends_with(".st") => {}
+            _ if !file.path.ends_with(".st") || is_tasks => {}
             Some(name) => texts.programs.push((name, file.path, text)),
             None => texts.parts.push((file.path, text)),
         }
@@ -251,8 +252,8 @@ impl Whole<'_> {
 }
 
 /// Devices that the editor chose for labels of a program and for global ones, and those of members of structures, which
-/// no text states.
-fn known(sources: &Sources, program: &str) -> Known {
+/// no text states. The names of other programs stand before theirs.
+pub(crate) fn known(sources: &Sources, program: &str) -> Known {
     let local = format!("{program}.");
     let mut known = Known::new();
     for one in sources.devices() {
@@ -302,7 +303,14 @@ impl Lines {
 
 /// Devices of labels, and those that a text names. All other relays and registers of compiled text are temporaries.
 fn stated(sources: &Sources) -> BTreeSet<Device> {
-    let mut stated: BTreeSet<_> = sources.devices().iter().map(|one| one.device).collect();
+    stated_devices(sources, true)
+}
+
+/// As [`stated`], with or without devices that the editor chose.
+pub(crate) fn stated_devices(sources: &Sources, with_chosen: bool) -> BTreeSet<Device> {
+    let labels = sources.devices().into_iter();
+    let labels = labels.filter(|one| with_chosen || !one.is_chosen);
+    let mut stated: BTreeSet<_> = labels.map(|one| one.device).collect();
     for pou in &sources.pous {
         if let Body::Text(text) = &pou.body {
             let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
@@ -310,6 +318,11 @@ fn stated(sources: &Sources) -> BTreeSet<Device> {
         }
     }
     stated
+}
+
+/// Instructions without the numbers of temporaries and jumps.
+pub(crate) fn lines(instrs: &[Instr], stated: &BTreeSet<Device>) -> Vec<String> {
+    Lines::new(instrs, stated).0
 }
 
 /// The relay or register that a word names: `M10`, `D10Z0`, `K4M0`.

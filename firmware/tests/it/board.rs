@@ -1,6 +1,6 @@
 //! Descriptions of boards: what they may say, and what is wrong with others.
 
-use rungc_firmware::board::{Board, OutputPin, Uart, load, parse};
+use rungc_firmware::board::{Board, OutputPin, Uart, parse};
 use rungc_syntax::Source;
 use std::path::Path;
 
@@ -209,10 +209,8 @@ fn names_of_sources_mean_nothing_to_make() {
     std::fs::create_dir(folder.path().join("more")).unwrap();
     std::fs::write(folder.path().join("more/panel.c"), "").unwrap();
     let sources = |names: &[&str]| {
-        let path = folder.path().join("board.toml");
         let text = DESK.replacen("\n[memory]", &format!("sources = {names:?}\n[memory]"), 1);
-        std::fs::write(&path, text).unwrap();
-        load(&path).map_err(|error| error.to_string())
+        parse(&Source::new("board.toml", text), folder.path()).map_err(|error| error.to_string())
     };
     for file in &files[..4] {
         let error = sources(&[file]).unwrap_err();

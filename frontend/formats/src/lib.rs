@@ -24,7 +24,7 @@ mod table;
 mod text;
 mod unsaved;
 
-use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes, inputs};
+use rungc_syntax::{Diagnostic, Diagnostics, Program, Source, SourceKind, Span, codes, inputs};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read as _};
@@ -77,6 +77,8 @@ pub struct ReadOptions {
     pub names: Names,
     /// Texts that an editor has not saved.
     pub unsaved: Unsaved,
+    /// Files in structured text that are one program: each of them stands for all.
+    pub parts: Vec<PathBuf>,
 }
 
 impl ReadOptions {
@@ -160,6 +162,9 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> 
         true => Path::new("."),
         false => path,
     };
+    if let Some((name, files)) = of_several(path, options) {
+        return structured::read_files(&name, &files, options);
+    }
     let inside = if path.is_dir() {
         Some(main_file(path)?)
     } else {
@@ -205,6 +210,26 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> 
         read.diagnostics.extend(unread);
     }
     Ok(read)
+}
+
+/// The files of a program in structured text of several files, and its name: those of a folder, or those that the
+/// options list with this one.
+fn of_several(path: &Path, options: &ReadOptions) -> Option<(String, Vec<PathBuf>)> {
+    let name = |path: &Path| {
+        let name = path.file_name();
+        name.map(|name| name.to_string_lossy().into_owned())
+    };
+    if path.is_dir() {
+        let files = structured::files(path);
+        let is_one = main_file(path).is_err() && !files.is_empty();
+        let full = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        return is_one.then(|| (name(&full).unwrap_or_default(), files));
+    }
+    let full = path.canonicalize().ok()?;
+    let mut parts = options.parts.iter();
+    let is_listed = parts.any(|part| part.canonicalize().is_ok_and(|part| part == full));
+    let first = options.parts.first().filter(|_| is_listed)?;
+    Some((name(first)?, options.parts.clone()))
 }
 
 /// Reads a program of any known format that is one file, from a pipe for example. `name` is what diagnostics call it.
@@ -301,7 +326,9 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
     };
     if replaced {
         let is_utf8 = options.encoding.is_none() && encoding::is_damaged_utf8(bytes);
-        read.diagnostics.push(undecoded(&read.program, is_utf8));
+        let source = &read.program.source;
+        let whole = Span::new(0, source.text.len() as u32);
+        read.diagnostics.push(undecoded(source, whole, is_utf8));
     }
     if encoding::dos_end(bytes).is_some_and(|end| end.hides_instructions) {
         read.diagnostics.push(hidden(&read.program));
@@ -334,11 +361,12 @@ fn hidden(program: &Program) -> Diagnostic {
         .help("delete the Ctrl-Z and the bytes below it, or copy the whole file again from where it comes")
 }
 
-/// Some characters of a text were bytes without a meaning in its encoding.
-fn undecoded(program: &Program, is_utf8: bool) -> Diagnostic {
-    let text = &program.source.text;
+/// Some characters of a text, or of a file in it, were bytes without a meaning in its encoding.
+fn undecoded(source: &Source, file: Span, is_utf8: bool) -> Diagnostic {
+    let text = source.slice(file);
     let at = text.find(char::REPLACEMENT_CHARACTER);
-    let span = at.map_or(Span::default(), |at| Span::new(at as u32, at as u32 + 3));
+    let place = |at: usize| Span::new(file.start + at as u32, file.start + at as u32 + 3);
+    let span = at.map_or(file, place);
     let is_cut_off = at.is_some_and(|at| at + 3 == text.trim_end().len());
     let (what, label, help) = if is_cut_off {
         (

@@ -1,6 +1,6 @@
 //! Finding the programs in a folder.
 
-use crate::{GX_DEVELOPER, csv, encoding, find, image, main_file, plcopen};
+use crate::{GX_DEVELOPER, csv, encoding, find, image, main_file, plcopen, structured};
 use rungc_syntax::inputs;
 use std::fs::{self, File};
 use std::io::{self, Read};
@@ -10,10 +10,13 @@ use walkdir::{DirEntry, WalkDir};
 /// Size of the part of a table that shows whether it is a list export, in bytes: its headers are in the first rows.
 const HEAD: u64 = 64 << 10;
 
-/// Returns true if a folder is itself a program: that of a GX Developer project, or of a list export alone.
+/// Returns true if a folder is itself a program: that of a GX Developer project, of a list export alone, or of several
+/// files in structured text.
 pub fn is_project(folder: &Path) -> bool {
     let is_alone = || programs(folder, usize::MAX).is_ok_and(|found| found.len() < 2);
-    is_of_gx_developer(folder) || main_file(folder).is_ok() && is_alone()
+    is_of_gx_developer(folder)
+        || structured::is_project(folder)
+        || main_file(folder).is_ok() && is_alone()
 }
 
 fn is_of_gx_developer(folder: &Path) -> bool {
@@ -23,7 +26,7 @@ fn is_of_gx_developer(folder: &Path) -> bool {
 }
 
 /// All programs in a folder and, to this depth (1: in itself), below, in the order of their paths: instruction lists
-/// (`.il`), structured text (`.st`), list exports (`.csv`), GX Developer projects (their folders), GX Works2 projects
+/// (`.il`), structured text (`.st`, or the folder of several files of one program), list exports (`.csv`), GX Developer projects (their folders), GX Works2 projects
 /// (`.gxw`), FXGP/WIN programs (`.pmw`), images of program memory (`.bin`) and PLCopen XML (`.xml`). Hidden folders,
 /// folders called `target`, links to folders and what is not a file, such as a pipe, are left out.
 pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
@@ -36,7 +39,7 @@ pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
         if entry.file_type().is_dir() {
             if entry.depth() > 0 && is_left_out(&entry) {
                 entries.skip_current_dir();
-            } else if is_of_gx_developer(path) {
+            } else if is_of_gx_developer(path) || structured::is_project(path) {
                 found.push(path.to_owned());
                 entries.skip_current_dir();
             }
@@ -72,7 +75,7 @@ pub fn walk_error(error: walkdir::Error) -> io::Error {
     io::Error::new(kind, format!("cannot read `{path}`: {why}"))
 }
 
-fn is_left_out(folder: &DirEntry) -> bool {
+pub(crate) fn is_left_out(folder: &DirEntry) -> bool {
     let name = folder.file_name().to_string_lossy();
     name.starts_with('.') || name == "target"
 }

@@ -27,4 +27,4 @@ pub use program::{
     Device, DeviceRun, FittedModule, Index, Instr, NetworkRequest, Operand, OperandKind, Operands,
     Parameters, Program, Remarks, SourceKind,
 };
-pub use source::{Source, Span};
+pub use source::{Part, Source, Span};

@@ -49,8 +49,21 @@ pub struct Source {
     /// The text.
     pub text: String,
     line_starts: Vec<u32>,
+    /// The files that the text is made of, in order; empty if it is one.
+    parts: Vec<Part>,
     /// For each block of the text, how many characters begin before it; counted when it is first needed.
     before_block: OnceLock<Vec<u32>>,
+}
+
+/// A file of a source that is made of several.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Path for users.
+    pub path: String,
+    /// First byte of its text.
+    pub start: u32,
+    /// Number of lines before it.
+    lines_before: u32,
 }
 
 /// Length of the blocks in bytes.
@@ -76,21 +89,83 @@ impl Source {
             name: name.into(),
             text,
             line_starts,
+            parts: Vec::new(),
             before_block: OnceLock::new(),
         }
     }
 
-    /// The 1-based line of a byte offset; offsets past the end give the last one.
+    /// Joins the texts of several files, each by its path; lines are counted in each of them. Texts of more than 4 GiB
+    /// must be rejected before.
+    pub fn joined(
+        name: impl Into<String>,
+        files: impl IntoIterator<Item = (String, String)>,
+    ) -> Self {
+        let mut text = String::new();
+        let mut parts = Vec::new();
+        for (path, file) in files {
+            parts.push((path, text.len() as u32));
+            text.push_str(&file);
+            // The next one begins on its own line.
+            if !text.is_empty() && !text.ends_with('\n') {
+                text.push('\n');
+            }
+        }
+        let mut source = Source::new(name, text);
+        let parts = parts.into_iter().map(|(path, start)| Part {
+            path,
+            start,
+            lines_before: source.whole_line(start) - 1,
+        });
+        source.parts = parts.collect();
+        source
+    }
+
+    /// The files that the text is made of, in order; empty if it is one.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The file that holds a byte offset, if the text is made of several.
+    pub fn part(&self, offset: u32) -> Option<&Part> {
+        let next = self.parts.partition_point(|part| part.start <= offset);
+        self.parts.get(next.checked_sub(1)?)
+    }
+
+    /// The bytes of each file that the text is made of; all bytes if it is one.
+    pub fn spans(&self) -> Vec<Span> {
+        let end = self.text.len() as u32;
+        let starts = || self.parts.iter().map(|part| part.start);
+        match self.parts.is_empty() {
+            true => vec![Span::new(0, end)],
+            false => starts()
+                .zip(starts().skip(1).chain([end]))
+                .map(|(start, end)| Span::new(start, end))
+                .collect(),
+        }
+    }
+
+    /// The 1-based line of a byte offset in its file; offsets past the end give the last one.
     pub fn line(&self, offset: u32) -> u32 {
+        self.whole_line(offset) - self.part(offset).map_or(0, |part| part.lines_before)
+    }
+
+    /// The 1-based line in the whole text.
+    fn whole_line(&self, offset: u32) -> u32 {
         let line = self.line_starts.partition_point(|&start| start <= offset);
         line.max(1) as u32
+    }
+
+    /// Returns true for two bytes on one line.
+    pub fn is_one_line(&self, offset: u32, other: u32) -> bool {
+        self.whole_line(offset) == self.whole_line(other)
     }
 
     /// The 1-based line and column (in characters) of a byte offset; offsets past the end give the end.
     pub fn line_col(&self, offset: u32) -> (u32, u32) {
         let offset = (offset as usize).min(self.text.len());
         let line = self.line(offset as u32);
-        let start = self.line_starts.get(line as usize - 1);
+        let start = self.whole_line(offset as u32) - 1;
+        let start = self.line_starts.get(start as usize);
         let start = start.map_or(0, |&start| start as usize).min(offset);
         (line, self.characters(start, offset) as u32 + 1)
     }
@@ -148,6 +223,32 @@ mod tests {
         assert_eq!(source.line_col(6), (2, 1));
         assert_eq!(source.line_col(12), (2, 3));
         assert_eq!(source.line_col(999), (3, 1));
+    }
+
+    #[test]
+    fn lines_are_those_of_each_file() {
+        let files = [
+            ("a.st", "one\ntwo"),
+            ("b.st", ""),
+            ("c.st", "three\nfour\n"),
+        ];
+        let files = files.map(|(path, text)| (path.to_owned(), text.to_owned()));
+        let source = Source::joined("all", files);
+        let place = |offset| {
+            let (line, column) = source.line_col(offset);
+            let path = source.part(offset).map(|part| part.path.as_str());
+            (path.unwrap_or_default(), line, column)
+        };
+        assert_eq!(place(5), ("a.st", 2, 2));
+        assert_eq!(place(8), ("c.st", 1, 1));
+        assert_eq!(place(15), ("c.st", 2, 2));
+        assert!(source.is_one_line(8, 13) && !source.is_one_line(5, 8));
+        let texts: Vec<_> = source
+            .spans()
+            .into_iter()
+            .map(|s| source.slice(s))
+            .collect();
+        assert_eq!(texts, ["one\ntwo\n", "", "three\nfour\n"]);
     }
 
     #[test]

@@ -1,8 +1,12 @@
 //! `cargo xtask sources`: how much of the structured text of real projects is compiled to the instructions that GX
 //! Works2 made of it.
 
+mod behaviour;
+
 use crate::Problem;
+use behaviour::Effort;
 use rungc::sources::{Comparison, Other};
+use rungc_frontend::Read;
 use rungc_lower::compile::{CompileOptions, model};
 use std::path::{Path, PathBuf};
 
@@ -12,6 +16,16 @@ pub struct Args {
     /// Folders with projects of GX Works2.
     #[arg(required = true)]
     folders: Vec<PathBuf>,
+    /// Also run the source and its compiled copy with the same random inputs for this many scans, and compile the files
+    /// that `convert --to st` writes.
+    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
+    scans: u32,
+    /// Random seed.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// With --scans, also prove that their outputs are the same, with this limit of the effort.
+    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
+    proofs: u64,
 }
 
 /// Compares the programs in structured text of all projects, and prints each statement that is not equal.
@@ -26,10 +40,18 @@ pub fn run(args: &Args) -> Result<(), Problem> {
             let is_project = path
                 .extension()
                 .is_some_and(|ending| ending.eq_ignore_ascii_case("gxw"));
-            let Some(found) = is_project.then(|| compared(&path)).flatten() else {
+            let Some((read, found)) = is_project.then(|| compared(&path)).flatten() else {
                 continue;
             };
             println!("{}: {}", path.display(), line(&found));
+            if args.scans > 0 {
+                let effort = Effort {
+                    scans: args.scans,
+                    seed: args.seed,
+                    proofs: args.proofs,
+                };
+                println!("  {}", behaviour::compared(&read, &effort)?);
+            }
             for Other {
                 file,
                 line,
@@ -56,10 +78,11 @@ pub fn run(args: &Args) -> Result<(), Problem> {
     Ok(())
 }
 
-fn compared(path: &Path) -> Option<Comparison> {
+fn compared(path: &Path) -> Option<(Read, Comparison)> {
     let read = rungc_frontend::read(path).ok()?;
     let model = model(&read.program, &CompileOptions::default());
-    Comparison::new(&read, model)
+    let found = Comparison::new(&read, model)?;
+    Some((read, found))
 }
 
 fn line(found: &Comparison) -> String {

@@ -17,6 +17,41 @@ pub(crate) struct Text {
     /// Sections of global variables.
     pub globals: Vec<Section>,
     pub structures: Vec<Structure>,
+    pub configurations: Vec<Configuration>,
+}
+
+impl Text {
+    /// Adds the parts of another text.
+    pub(crate) fn extend(&mut self, other: Text) {
+        self.units.extend(other.units);
+        self.globals.extend(other.globals);
+        self.structures.extend(other.structures);
+        self.configurations.extend(other.configurations);
+    }
+}
+
+/// Which programs run when.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Configuration {
+    /// First keyword.
+    pub head: Span,
+    pub tasks: Vec<Task>,
+    pub programs: Vec<Runs>,
+}
+
+/// A task.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Task {
+    pub name: Name,
+    /// `INTERVAL := T#10ms`, `PRIORITY := 31`.
+    pub settings: Vec<(Name, Expr)>,
+}
+
+/// A program and the task that runs it.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Runs {
+    pub program: Name,
+    pub task: Option<Name>,
 }
 
 /// Kind of a program organisation unit.
@@ -68,6 +103,8 @@ pub(crate) struct Section {
 pub(crate) struct Variable {
     pub names: Vec<Name>,
     pub place: Option<Expr>,
+    /// Devices of members of a structure: `AT (Home := X0, Position := D10)`.
+    pub members: Vec<(Name, Expr)>,
     pub of: TypeName,
     pub initial: Option<Expr>,
     /// False if the semicolon is missing.

@@ -3,6 +3,7 @@
 use crate::ast::{Arg, Expr, ExprKind, Op};
 use crate::conditions::Cond;
 use crate::emit::{Compiler, Made, fail};
+use crate::fold;
 use crate::labels::Stored;
 use crate::literal::Const;
 use crate::types::Ty;
@@ -21,8 +22,12 @@ impl Compiler<'_> {
                 error.help("assign something to it, `NAME := VALUE;`, or call it, `NAME(…);`"),
             );
         };
-        if let (ExprKind::Member(..), Some(instance)) = (&of.kind, self.instance(of)) {
-            return self.called_block(&instance, args, expr);
+        if let ExprKind::Member(..) | ExprKind::Index(..) = &of.kind {
+            if let Some(instance) = self.instance(of) {
+                return self.called_block(&instance, args, expr);
+            }
+            // What it is instead is worth more than that it cannot be called.
+            self.spot(of)?;
         }
         let Some(name) = of.name() else {
             return fail(codes::ST_UNSUPPORTED.at(of.span, "this cannot be called"));
@@ -31,6 +36,9 @@ impl Compiler<'_> {
         if let Some(label) = labels.get(name) {
             if let Stored::Instance(instance) = &label.stored {
                 return self.called_block(instance, args, expr);
+            }
+            if matches!(label.stored, Stored::Instances) {
+                self.spot(of)?;
             }
             let what = format!("`{name}` is a label, which cannot be called");
             return fail(codes::ST_TYPE.at(of.span, what));
@@ -94,8 +102,11 @@ impl Compiler<'_> {
         let (mut errors, mut failed) = (Vec::new(), false);
         let mut operands: Vec<Option<Operand>> = vec![None; params.len()];
         let mut widths = Ty::Int;
-        // A compound EN is stored before anything is computed.
-        let computed = args.iter().any(|arg| !self.is_plain(&arg.value));
+        // A compound EN is stored before anything is computed, and a sign counts as that.
+        let is_signed = |arg: &Arg| matches!(arg.value.kind, ExprKind::Neg(_));
+        let computed = args
+            .iter()
+            .any(|arg| is_signed(arg) || !self.is_plain(&arg.value));
         let enabled = match computed {
             true => self.enabled(enable),
             false => Ok(None),
@@ -140,7 +151,9 @@ impl Compiler<'_> {
                 return Err(errors);
             }
         };
-        match computed {
+        // M8000 that is written as a device is a contact like others.
+        let is_device = fold::constant(&self.labels, enable).is_none();
+        match computed || is_device {
             true => self.load(&enabled),
             false => self.enable(&enabled),
         }

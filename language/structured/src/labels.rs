@@ -1,10 +1,11 @@
 //! The labels of a program: their types, and their devices.
 
 use crate::ast::{Expr, ExprKind, Name, Section, Unit, UnitKind, Variable};
-use crate::device::{self, Place};
+use crate::device;
 use crate::layout::{Structures, Type};
 use crate::literal::{Const, Literal, range};
 use crate::ranges::{Free, Ranges};
+use crate::stated::{stated, stated_members, suits};
 use crate::types::{Fit, Ty};
 use crate::{Known, blocks, calls, convert, fold};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, OperandKind, Span, codes};
@@ -24,6 +25,8 @@ pub(crate) enum Stored {
     Constant(Const),
     /// Instance of a function block.
     Instance(Rc<Instance>),
+    /// Array of instances, each of which is a label with its index in its name: `Valves[2]`.
+    Instances,
     /// Its declaration is wrong, which is reported.
     Unknown,
 }
@@ -88,8 +91,12 @@ pub(crate) struct Declaring<'d> {
     pub units: &'d [Unit],
     pub structures: &'d Structures,
     pub found: &'d mut Vec<Diagnostic>,
+    /// Name of the program with a dot; empty for global labels and functions.
+    pub program: String,
     /// Names of the instances around, each with a dot.
     pub path: String,
+    /// True for the labels of a subroutine.
+    pub is_routine: bool,
     /// Number of instances that may still be declared.
     pub left: usize,
 }
@@ -108,9 +115,18 @@ impl<'d> Declaring<'d> {
             units,
             structures,
             found,
+            program: String::new(),
             path: String::new(),
+            is_routine: false,
             left: blocks::MOST,
         }
+    }
+
+    /// The known device of a label, by its name with or without that of the program.
+    fn known(&self, name: &str) -> Option<Device> {
+        let whole = format!("{}{name}", self.program).to_uppercase();
+        let known = self.known.get(&whole);
+        known.or_else(|| self.known.get(name)).copied()
     }
 }
 
@@ -122,6 +138,7 @@ pub(crate) struct Supply {
     t: Free,
     c: Free,
     p: Free,
+    ticks: Option<Free>,
 }
 
 impl Supply {
@@ -132,7 +149,18 @@ impl Supply {
             t: Free::new(DeviceClass::T, ranges.t),
             c: Free::new(DeviceClass::C, ranges.c),
             p: Free::new(DeviceClass::P, ranges.p),
+            ticks: ranges.ticks.map(|ticks| Free::new(DeviceClass::T, ticks)),
         }
+    }
+
+    /// The next timer of 10 ms.
+    pub(crate) fn tick(&mut self) -> Option<Device> {
+        let free = self.ticks.as_mut()?;
+        let number = free.take_top(1)?;
+        Some(Device {
+            class: free.class,
+            number,
+        })
     }
 
     /// The first of `count` devices of a class, from the top of its range down.
@@ -263,18 +291,20 @@ impl Labels {
 
     fn variable(&mut self, variable: &Variable, is_constant: bool, role: Role, cx: &mut Declaring) {
         if let Some(unit) = block_of(variable, cx.units) {
-            let is_plain = variable.of.bounds.is_empty() && variable.place.is_none();
-            for name in &variable.names {
-                match is_plain {
-                    true => self.instance(name, unit, cx),
-                    false => self.insert(Label::new(name, Type::Plain(Ty::Raw16), role)),
-                }
+            let stated = variable.members.iter().map(|(_, device)| device);
+            if let Some(place) = variable.place.iter().chain(stated).next() {
+                let what = "a function block gets its devices by itself";
+                let error = codes::ST_UNSUPPORTED.at(place.span, what);
+                cx.found.push(error.help("leave out `AT`"));
             }
-            if !is_plain {
-                let what = "arrays of blocks, and blocks at a device, are not compiled yet";
-                let error = codes::ST_UNSUPPORTED.at(variable.span, what);
-                cx.found
-                    .push(error.help("declare each instance: `Name : BLOCK;`"));
+            let Some(bounds) = self.bounds(&variable.of, cx.found) else {
+                return;
+            };
+            for name in &variable.names {
+                match bounds.is_empty() {
+                    true => self.instance(name, unit, cx),
+                    false => self.instances(name, unit, &bounds, cx),
+                }
             }
             return;
         }
@@ -293,8 +323,8 @@ impl Labels {
                     (true, _) => self.constant(variable, name, of),
                     (false, Some(Some(place))) => suits(place.clone(), of, variable),
                     (false, Some(None)) => Ok(Stored::Unknown),
-                    // A reference has no device.
-                    (false, None) if role == Role::InOut => Ok(Stored::Unknown),
+                    // A reference has no device; a subroutine works on a copy.
+                    (false, None) if role == Role::InOut && !cx.is_routine => Ok(Stored::Unknown),
                     (false, None) => chosen(&label, cx, variable),
                 };
                 match stored {
@@ -311,6 +341,36 @@ impl Labels {
                     .as_ref()
                     .is_some_and(|initial| fold::is_hexadecimal(self, initial));
             self.insert(label);
+        }
+    }
+
+    /// Declares an array of instances of a function block.
+    fn instances(&mut self, name: &Name, unit: usize, bounds: &[(i64, i64)], cx: &mut Declaring) {
+        if let Some(error) = self.clash(name, Role::Own) {
+            cx.found.push(error);
+            return;
+        }
+        let mut label = Label::new(name, Type::Plain(Ty::Raw16), Role::Own);
+        label.stored = Stored::Instances;
+        self.insert(label);
+        let mut index: Vec<i64> = bounds.iter().map(|(first, _)| *first).collect();
+        loop {
+            let element = Name {
+                text: element(&name.text, &index).into(),
+                span: name.span,
+            };
+            self.instance(&element, unit, cx);
+            // Some of them may be without a use.
+            self.own(&element.text);
+            // The last dimension counts first.
+            let next = (0..index.len()).rev().find(|at| index[*at] < bounds[*at].1);
+            let Some(at) = next.filter(|_| cx.left > 0) else {
+                return;
+            };
+            index[at] += 1;
+            for later in at + 1..index.len() {
+                index[later] = bounds[later].0;
+            }
         }
     }
 
@@ -408,6 +468,8 @@ impl Instance {
     pub(crate) fn declared(unit: usize, cx: &mut Declaring) -> Instance {
         let block = &cx.units[unit];
         let mut own = Labels::default();
+        let is_routine = block.kind == UnitKind::Function || block.is_library;
+        let outer = std::mem::replace(&mut cx.is_routine, is_routine);
         let before = cx.found.len();
         for section in &block.sections {
             let role = match section.keyword.text.as_str() {
@@ -423,6 +485,7 @@ impl Instance {
             let result = Variable {
                 names: vec![block.name.clone()],
                 place: None,
+                members: Vec::new(),
                 of: of.clone(),
                 initial: None,
                 is_ended: true,
@@ -430,6 +493,7 @@ impl Instance {
             };
             own.variable(&result, false, Role::Own, cx);
         }
+        cx.is_routine = outer;
         // Each instance would report the same.
         let mut kept = cx.found.split_off(before);
         kept.retain(|one| !cx.found.contains(one));
@@ -473,76 +537,18 @@ pub(crate) fn value_in((value, of): Literal, ty: Ty, span: Span) -> Result<Const
     }
 }
 
+/// Name of an element of an array of instances: `Valves[1,2]`.
+pub(crate) fn element(name: &str, index: &[i64]) -> String {
+    let index: Vec<_> = index.iter().map(ToString::to_string).collect();
+    format!("{name}[{}]", index.join(","))
+}
+
 /// The function block that a declaration names as its type.
 fn block_of(variable: &Variable, units: &[Unit]) -> Option<usize> {
     let name = &variable.of.name.text;
     let is_this =
         |unit: &Unit| unit.kind == UnitKind::Block && unit.name.text.eq_ignore_ascii_case(name);
     units.iter().position(is_this)
-}
-
-/// The device that a declaration states.
-fn stated(place: &Expr, found: &mut Vec<Diagnostic>) -> Option<Place> {
-    let device = match &place.kind {
-        ExprKind::Name(name) => device::find(name),
-        ExprKind::Address(address) => device::address(address),
-        ExprKind::Member(of, bit) => {
-            let word = of.name().and_then(device::find);
-            let bit = word.and_then(|(word, _)| device::bit(&word, bit));
-            bit.map(|bit| (bit, Ty::Bool))
-        }
-        _ => None,
-    };
-    if device.is_none() {
-        let error = codes::ST_UNKNOWN_NAME.at(place.span, "this is not a device");
-        found.push(error.help("write for example `AT X0`, `AT D10`, `AT D10.3` or `AT K4M0`"));
-    }
-    device
-}
-
-/// The device of a label, or the first one of an array, if it suits the type.
-fn suits(
-    (operand, of): Place,
-    label: &Type,
-    variable: &Variable,
-) -> Result<Stored, Box<Diagnostic>> {
-    let span = variable
-        .place
-        .as_ref()
-        .map_or(variable.span, |place| place.span);
-    let Some(ty) = label.element() else {
-        let what = "a structure gets its devices by itself";
-        let error = codes::ST_UNSUPPORTED.at(span, what);
-        return Err(error.help("leave out `AT`").into());
-    };
-    let is_bit_device = of == Ty::Bool;
-    let suits = match ty {
-        Ty::Bool => of.is_bit(),
-        Ty::Timer => of.is_bit() && !is_bit_device,
-        _ => !is_bit_device,
-    };
-    match (&operand, label.plain()) {
-        (_, Some(_)) if suits => return Ok(Stored::Device(operand)),
-        (OperandKind::Device(first, None), None) if suits => {
-            let is_bits = ty == Ty::Bool;
-            return Ok(Stored::Area(Area {
-                bits: is_bits.then_some(*first),
-                words: (!is_bits).then_some(*first),
-                members: BTreeMap::new(),
-            }));
-        }
-        _ => {}
-    }
-    let what = match label.plain() {
-        Some(ty) => format!("`{operand}` cannot hold {ty}"),
-        None => format!("an array cannot begin at `{operand}`"),
-    };
-    let help = match ty {
-        Ty::Bool => "a BOOL is an X, Y, M, S, or a bit of a word",
-        Ty::Timer => "a TIMER is a T, a COUNTER a C",
-        _ => "a number is a D, R, T, C, or a group of bits such as `K4M0`",
-    };
-    Err(codes::ST_NO_DEVICE.at(span, what).help(help).into())
 }
 
 /// Devices for a label that states none.
@@ -560,18 +566,26 @@ fn chosen(
         _ => DeviceClass::D,
     };
     let mut area = Area::default();
+    if let (Some((member, _)), None) = (variable.members.first(), label.of.structure()) {
+        let what = format!("`{}` has no members", label.name);
+        return Err(codes::ST_TYPE.at(member.span, what).into());
+    }
     if let Type::Structure(structure) = &label.of {
+        area.members = stated_members(structure, variable)?;
         let members = structure.members.iter().filter_map(|member| {
             let member = member.name.to_uppercase();
-            let device = cx.known.get(&format!("{name}.{member}"))?;
-            Some((member, *device))
+            let device = cx.known(&format!("{name}.{member}"))?;
+            Some((member, device))
         });
-        area.members = members.collect();
+        let known: Vec<_> = members.collect();
+        for (member, device) in known {
+            area.members.entry(member).or_insert(device);
+        }
         if area.members.len() == structure.members.len() {
             return Ok(Stored::Area(area));
         }
     }
-    let known = cx.known.get(&name).copied();
+    let known = cx.known(&name);
     if size.bits > 1 {
         cx.supply.leave_bits();
     }

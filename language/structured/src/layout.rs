@@ -107,6 +107,14 @@ impl Type {
         }
     }
 
+    /// The structure, if it is one.
+    pub(crate) fn structure(&self) -> Option<&Structure> {
+        match self {
+            Type::Structure(structure) => Some(structure),
+            _ => None,
+        }
+    }
+
     /// The elementary type of an element, however many dimensions there are; `None` in structures.
     pub(crate) fn element(&self) -> Option<Ty> {
         match self {
@@ -320,21 +328,34 @@ impl Labels {
                 return None;
             }
         };
-        for (first, last) in of.bounds.iter().rev() {
-            let value = |bound| match fold::constant(self, bound) {
-                Some((Const::Int(value), _)) => Some(value),
-                _ => None,
-            };
-            let bounds = value(first).zip(value(last));
-            let Some((first, last)) = bounds.filter(|(first, last)| first <= last) else {
-                let span = first.span.to(last.span);
-                found.push(codes::ST_LITERAL.at(span, "these are not the bounds of an array"));
-                return None;
-            };
+        for (first, last) in self.bounds(of, found)?.into_iter().rev() {
             let of = ty;
             ty = Type::Array(Rc::new(Array { first, last, of }));
         }
         Some(ty)
+    }
+
+    /// First and last index of each dimension of an array.
+    pub(crate) fn bounds(
+        &self,
+        of: &TypeName,
+        found: &mut Vec<Diagnostic>,
+    ) -> Option<Vec<(i64, i64)>> {
+        let value = |bound| match fold::constant(self, bound) {
+            Some((Const::Int(value), _)) => Some(value),
+            _ => None,
+        };
+        let mut all = Vec::new();
+        for (first, last) in &of.bounds {
+            let bounds = value(first).zip(value(last));
+            let Some(bounds) = bounds.filter(|(first, last)| first <= last) else {
+                let span = first.span.to(last.span);
+                found.push(codes::ST_LITERAL.at(span, "these are not the bounds of an array"));
+                return None;
+            };
+            all.push(bounds);
+        }
+        Some(all)
     }
 }
 

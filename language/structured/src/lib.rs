@@ -22,26 +22,30 @@ mod parse;
 mod places;
 mod ranges;
 mod routines;
+mod runs;
 mod shape;
+mod stated;
 mod statements;
 mod token;
 mod types;
 mod values;
 
-use ast::{Text, Unit, UnitKind};
+use ast::{Text, UnitKind};
 use emit::Compiler;
-use labels::{Declaring, Instance, Labels, Stored, Supply};
+use labels::{Declaring, Instance, Label, Labels, Stored, Supply};
 use layout::Structures;
 use rungc_models::Model;
 use rungc_syntax::{
-    Device, Diagnostics, Instr, OperandKind, Program, Severity, SourceKind, Span, codes,
+    Device, Diagnostics, Instr, OperandKind, Program, Severity, Source, SourceKind, Span, codes,
 };
+use runs::Run;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::mem;
 use std::rc::Rc;
 
-/// Devices that are known for labels without one, by their names in upper case.
+/// Devices that are known for labels without one, by their names in upper case; that of the program may stand before
+/// them, as in `MAIN.START`.
 pub type Known = BTreeMap<String, Device>;
 
 /// Compiles the text of a program that was read as structured text into its instructions; other programs stay as they
@@ -58,7 +62,7 @@ pub fn compile_with(program: &mut Program, model: &'static Model, known: &Known)
     }
     let source = mem::take(&mut program.source);
     let mut found = Vec::new();
-    let compiled = compiled(&source.text, model, known, &mut found);
+    let compiled = compiled(&source, model, known, &mut found);
     let has_errors = found
         .iter()
         .any(|one| one.severity == rungc_syntax::Severity::Error);
@@ -78,7 +82,7 @@ pub fn compile_with(program: &mut Program, model: &'static Model, known: &Known)
 /// Reads the statements of a text and finds what is wrong with its syntax; for searches of mistakes by chance.
 pub fn check_syntax(text: &str) -> Diagnostics {
     let mut found = Vec::new();
-    parsed(text, &mut found);
+    parsed(&Source::new("", text), &mut found);
     let mut out = Diagnostics::new();
     out.extend(found);
     out
@@ -107,7 +111,7 @@ pub struct Trial {
 /// Compiles a text as far as it can be, with devices that are known for labels without one.
 pub fn trial(text: &str, model: &'static Model, known: &Known) -> Trial {
     let mut found = Vec::new();
-    let compiled = compiled(text, model, known, &mut found);
+    let compiled = compiled(&Source::new("", text), model, known, &mut found);
     let mut diagnostics = Diagnostics::new();
     diagnostics.extend(found);
     let (statements, instrs) = compiled.map_or_else(Default::default, |compiled| {
@@ -128,44 +132,55 @@ struct Compiled {
     comments: BTreeMap<Device, String>,
 }
 
-/// Reads a text.
-fn parsed(text: &str, found: &mut Vec<rungc_syntax::Diagnostic>) -> Option<Text> {
-    let tokens = token::tokens(text);
-    let before = found.len();
-    shape::nesting(&tokens, found);
-    if found.len() > before {
-        return None;
+/// Reads the files of a text, each by itself: what is not closed in one does not reach into the next.
+fn parsed(source: &Source, found: &mut Vec<rungc_syntax::Diagnostic>) -> Option<Text> {
+    let mut tree = Text::default();
+    let mut all = Vec::new();
+    for file in source.spans() {
+        let mut tokens = token::tokens(source.slice(file));
+        for lexeme in &mut tokens {
+            let Span { start, end } = lexeme.span;
+            lexeme.span = Span::new(start + file.start, end + file.start);
+        }
+        let before = found.len();
+        shape::nesting(&tokens, found);
+        if found.len() > before {
+            return None;
+        }
+        tree.extend(parse::parse(&tokens, found));
+        all.extend(tokens);
     }
-    let mut tree = parse::parse(&tokens, found);
     shape::endings(&tree, found);
-    library::add(&mut tree, &tokens);
+    library::add(&mut tree, &all);
     Some(tree)
 }
 
 fn compiled(
-    text: &str,
+    source: &Source,
     model: &'static Model,
     known: &Known,
     found: &mut Vec<rungc_syntax::Diagnostic>,
 ) -> Option<Compiled> {
-    let tree = parsed(text, found)?;
-    let program = only_program(&tree, found)?;
+    let tree = parsed(source, found)?;
+    runs::declared_twice(&tree, found);
+    let runs = runs::of(&tree, found);
+    let first = &tree.units[runs.first()?.unit].name;
     let Declared {
         global,
-        labels,
+        programs,
         functions,
         supply,
-    } = declared(&tree, program, (model, known), found);
+    } = declared(&tree, &runs, (model, known), found);
     let mut compiler = Compiler {
-        labels: Rc::clone(&labels),
+        labels: Rc::clone(&global),
         units: &tree.units,
         model,
         functions,
         supply,
         instrs: Vec::new(),
         found: Vec::new(),
-        text,
-        span: program.name.span,
+        text: &source.text,
+        span: first.span,
         heading: None,
         is_powered: false,
         loops: Vec::new(),
@@ -178,14 +193,13 @@ fn compiled(
         indexes: None,
         own_used: RefCell::default(),
     };
-    compiler.body(&program.body);
-    compiler.span = program.name.span;
-    if let Some(end) = compiler.end {
-        compiler.label(end);
+    for (run, labels) in runs.iter().zip(&programs) {
+        compiler.labels = Rc::clone(labels);
+        compiler.program(run);
     }
     compiler.push("FEND", []);
     compiler.routines();
-    compiler.span = program.name.span;
+    compiler.span = first.span;
     for last in ["NOP", "END"] {
         compiler.push(last, []);
     }
@@ -205,30 +219,35 @@ fn compiled(
         found.push(codes::ST_UNSUPPORTED.at(incomplete.span, "this is not compiled yet"));
     }
     if !has_errors(found) {
-        unused(&labels, found);
-        unused(&global, found);
+        for labels in programs.iter().chain([&global]) {
+            unused(labels, found);
+        }
     }
+    let names = runs
+        .iter()
+        .map(|run| tree.units[run.unit].name.text.as_str());
     Some(Compiled {
-        name: program.name.text.to_string(),
+        name: first.text.to_string(),
+        comments: comments(&global, names.zip(&programs)),
         instrs,
         statements,
-        comments: comments([&*global, &*labels]),
     })
 }
 
 /// Labels of a text.
 struct Declared {
     global: Rc<Labels>,
-    labels: Rc<Labels>,
+    /// Those of each program that runs.
+    programs: Vec<Rc<Labels>>,
     functions: BTreeMap<String, Rc<Instance>>,
     /// Devices that are left.
     supply: Supply,
 }
 
-/// Declares the labels of a text and its program: constants first, since bounds of arrays may name them.
+/// Declares the labels of a text and its programs: constants first, since bounds of arrays may name them.
 fn declared(
     tree: &Text,
-    program: &Unit,
+    runs: &[Run],
     (model, known): (&'static Model, &Known),
     found: &mut Vec<rungc_syntax::Diagnostic>,
 ) -> Declared {
@@ -249,43 +268,28 @@ fn declared(
         global.declare(section, &mut cx);
     }
     let global = Rc::new(global);
-    let mut labels = Labels::below(Rc::clone(&global));
-    for section in &program.sections {
-        labels.declare(section, &mut cx);
+    let mut programs = Vec::new();
+    for run in runs {
+        let mut labels = Labels::below(Rc::clone(&global));
+        let unit = &tree.units[run.unit];
+        cx.program = format!("{}.", unit.name.text);
+        for section in &unit.sections {
+            labels.declare(section, &mut cx);
+        }
+        cx.program.clear();
+        programs.push(Rc::new(labels));
     }
-    let functions = functions_of(&global, &mut cx);
+    let functions = functions_of(&mut cx);
     Declared {
-        labels: Rc::new(labels),
         global,
+        programs,
         functions,
         supply,
     }
 }
 
-/// The program of a text; what else is in it and is not compiled is reported.
-fn only_program<'t>(tree: &'t Text, found: &mut Vec<rungc_syntax::Diagnostic>) -> Option<&'t Unit> {
-    let mut programs = tree
-        .units
-        .iter()
-        .filter(|unit| unit.kind == UnitKind::Program);
-    let Some(program) = programs.next() else {
-        if !has_errors(found) {
-            let error = codes::ST_SYNTAX.at(Span::default(), "this text holds no PROGRAM");
-            found.push(error.help("write `PROGRAM Main`, the statements, and `END_PROGRAM`"));
-        }
-        return None;
-    };
-    for other in programs {
-        let span = other.head.to(other.name.span);
-        let error =
-            codes::ST_UNSUPPORTED.at(span, "a text with several programs is not compiled yet");
-        found.push(error.other(program.name.span, "the first program"));
-    }
-    Some(program)
-}
-
 /// The functions of a text, by their names in upper case, with devices for their labels.
-fn functions_of(global: &Labels, cx: &mut Declaring) -> BTreeMap<String, Rc<Instance>> {
+fn functions_of(cx: &mut Declaring) -> BTreeMap<String, Rc<Instance>> {
     let mut functions = BTreeMap::new();
     let units = cx.units.iter().enumerate();
     for (at, unit) in units.filter(|(_, unit)| unit.kind == UnitKind::Function) {
@@ -297,29 +301,12 @@ fn functions_of(global: &Labels, cx: &mut Declaring) -> BTreeMap<String, Rc<Inst
                 .push(error.help(format!("write `FUNCTION {} : INT`", name.text)));
             continue;
         }
-        if let Some(other) = global.get(&name.text) {
-            let what = format!("`{}` is declared twice", name.text);
-            let error = codes::ST_DECLARED_TWICE.at(name.span, what);
-            cx.found
-                .push(error.label("again here").other(other.span, "first here"));
-        }
-        let mut keywords = unit.sections.iter().map(|section| &section.keyword);
-        if let Some(reference) = keywords.find(|keyword| keyword.text == "VAR_IN_OUT") {
-            let what = "VAR_IN_OUT of a function is not compiled yet";
-            cx.found
-                .push(codes::ST_UNSUPPORTED.at(reference.span, what));
-        }
         cx.path = format!("{}.", name.text);
         let instance = Instance::declared(at, cx);
         cx.path.clear();
-        let before = functions.insert(name.text.to_uppercase(), Rc::new(instance));
-        if let Some(before) = before {
-            let first = cx.units[before.unit].name.span;
-            let what = format!("`{}` is declared twice", name.text);
-            let error = codes::ST_DECLARED_TWICE.at(name.span, what);
-            cx.found
-                .push(error.label("again here").other(first, "first here"));
-        }
+        // Another one of this name is reported.
+        let key = name.text.to_uppercase();
+        functions.entry(key).or_insert_with(|| Rc::new(instance));
     }
     functions
 }
@@ -340,25 +327,44 @@ fn unused(labels: &Labels, found: &mut Vec<rungc_syntax::Diagnostic>) {
     }
 }
 
-/// Names of labels as the comments of their devices.
-fn comments<'l>(all: impl IntoIterator<Item = &'l Labels>) -> BTreeMap<Device, String> {
+/// Names of labels as the comments of their devices. Where several programs have a label of one name, that of the program
+/// stands before it.
+fn comments<'l>(
+    global: &Labels,
+    programs: impl Iterator<Item = (&'l str, &'l Rc<Labels>)>,
+) -> BTreeMap<Device, String> {
+    let programs: Vec<_> = programs.collect();
+    let mut count: BTreeMap<String, usize> = BTreeMap::new();
+    let locals = programs.iter().flat_map(|(_, labels)| labels.all());
+    for label in locals.chain(global.all()) {
+        *count.entry(label.name.to_uppercase()).or_default() += 1;
+    }
     let mut comments = BTreeMap::new();
-    for labels in all {
-        add_comments(labels, "", &mut comments);
+    add_comments(global, "", &|_| true, &mut comments);
+    for (program, labels) in programs {
+        let is_clear = |label: &Label| count.get(&label.name.to_uppercase()) == Some(&1);
+        add_comments(labels, "", &is_clear, &mut comments);
+        let path = format!("{program}.");
+        add_comments(labels, &path, &|label| !is_clear(label), &mut comments);
     }
     comments
 }
 
 /// Adds those of some labels, whose names begin with `path`.
-fn add_comments(labels: &Labels, path: &str, comments: &mut BTreeMap<Device, String>) {
-    for label in labels.all() {
+fn add_comments(
+    labels: &Labels,
+    path: &str,
+    is_meant: &dyn Fn(&Label) -> bool,
+    comments: &mut BTreeMap<Device, String>,
+) {
+    for label in labels.all().filter(|label| is_meant(label)) {
         let name = format!("{path}{}", label.name);
         match &label.stored {
             Stored::Device(OperandKind::Device(device, None)) => {
                 comments.entry(*device).or_insert(name);
             }
             Stored::Instance(instance) => {
-                add_comments(&instance.own, &format!("{name}."), comments);
+                add_comments(&instance.own, &format!("{name}."), &|_| true, comments);
             }
             Stored::Area(_) => {
                 for (member, device) in places::members(label) {

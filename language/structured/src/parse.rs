@@ -20,7 +20,9 @@ type Rule<'t, O> = Boxed<'t, 't, Tokens<'t>, O, Extra<'t>>;
 type Matched<'t, 'p> = MapExtra<'t, 'p, Tokens<'t>, Extra<'t>>;
 
 /// Words that name nothing.
-const KEYWORDS: [&str; 45] = [
+const KEYWORDS: [&str; 47] = [
+    "CONFIGURATION",
+    "END_CONFIGURATION",
     "PROGRAM",
     "END_PROGRAM",
     "FUNCTION",
@@ -69,7 +71,7 @@ const KEYWORDS: [&str; 45] = [
 ];
 
 /// Keywords that end a part of the text: a statement that cannot be read ends before them.
-const ENDS: [&str; 22] = [
+const ENDS: [&str; 23] = [
     "END_PROGRAM",
     "END_FUNCTION",
     "END_FUNCTION_BLOCK",
@@ -87,6 +89,7 @@ const ENDS: [&str; 22] = [
     "PROGRAM",
     "FUNCTION",
     "FUNCTION_BLOCK",
+    "CONFIGURATION",
     "TYPE",
     "VAR",
     "VAR_INPUT",
@@ -106,14 +109,19 @@ fn place(matched: &mut Matched) -> Span {
 
 fn place_in(tokens: &[Lexeme], span: SimpleSpan) -> Span {
     let end = |at: usize| {
-        let last = at.checked_sub(1).and_then(|at| tokens.get(at));
-        last.map_or(0, |lexeme| lexeme.span.end)
+        let last = at
+            .checked_sub(1)
+            .map(|at| at.min(tokens.len().saturating_sub(1)));
+        let last = last.and_then(|at| tokens.get(at));
+        let first = || tokens.first().map_or(0, |first| first.span.start);
+        last.map_or_else(first, |lexeme| lexeme.span.end)
     };
     if span.start >= span.end {
         let at = end(span.start);
         return Span::new(at, at);
     }
-    let start = tokens.get(span.start).map_or(0, |lexeme| lexeme.span.start);
+    let start = tokens.get(span.start);
+    let start = start.map_or_else(|| end(span.start), |lexeme| lexeme.span.start);
     Span::new(start, end(span.end))
 }
 

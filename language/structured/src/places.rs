@@ -5,7 +5,7 @@ use crate::ast::{Expr, ExprKind};
 use crate::device;
 use crate::emit::{Compiler, Made, fail};
 use crate::fold;
-use crate::labels::{Area, Instance, Label, Stored};
+use crate::labels::{Area, Instance, Label, Stored, element};
 use crate::layout::{Size, Type};
 use crate::literal::Const;
 use crate::types::Ty;
@@ -215,6 +215,13 @@ impl Compiler<'_> {
                 let error = codes::ST_TYPE.at(expr.span, what);
                 return fail(error.help(format!("call it: `{}(…);`", label.name)));
             }
+            Stored::Instances => {
+                let name = &label.name;
+                let what = format!("`{name}` is an array of function blocks");
+                let error = codes::ST_TYPE.at(expr.span, what);
+                let help = "name one of them by a constant index within the bounds";
+                return fail(error.help(help));
+            }
             // Its declaration is reported.
             Stored::Unknown => return Err(Vec::new()),
         };
@@ -248,6 +255,25 @@ impl Compiler<'_> {
         let label = match &expr.kind {
             ExprKind::Name(name) => self.labels.get(name).cloned()?,
             ExprKind::Member(of, member) => self.instance(of)?.own.own(member).cloned()?,
+            ExprKind::Index(of, indexes) => {
+                let index = |index| match fold::constant(&self.labels, index) {
+                    Some((Const::Int(value), _)) => Some(value),
+                    _ => None,
+                };
+                let indexes: Option<Vec<_>> = indexes.iter().map(index).collect();
+                match &of.kind {
+                    ExprKind::Name(name) => {
+                        self.labels.get(name)?;
+                        self.labels.get(&element(name, &indexes?)).cloned()?
+                    }
+                    ExprKind::Member(of, member) => {
+                        let outer = self.instance(of)?;
+                        outer.own.own(member)?;
+                        outer.own.own(&element(member, &indexes?)).cloned()?
+                    }
+                    _ => return None,
+                }
+            }
             _ => return None,
         };
         match label.stored {

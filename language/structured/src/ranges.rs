@@ -15,10 +15,24 @@ pub(crate) struct Ranges {
     pub c: Range,
     pub m: Range,
     pub p: Range,
+    /// Timers of 10 ms.
+    pub ticks: Option<Range>,
 }
 
 const fn ranges(d: Range, t: Range, c: Range, m: Range, p: Range) -> Ranges {
-    Ranges { d, t, c, m, p }
+    Ranges {
+        d,
+        t,
+        c,
+        m,
+        p,
+        ticks: Some((220, 245)),
+    }
+}
+
+/// The ranges of a CPU without timers of 10 ms for programs.
+const fn without_ticks(of: Ranges) -> Ranges {
+    Ranges { ticks: None, ..of }
 }
 
 static FX3U: Ranges = ranges(
@@ -35,10 +49,16 @@ static FX3G: Ranges = ranges(
     (512, 1535),
     (1024, 2047),
 );
-static FX3S: Ranges = ranges((512, 999), (16, 31), (16, 31), (512, 1535), (30, 255));
+static FX3S: Ranges = without_ticks(ranges(
+    (512, 999),
+    (16, 31),
+    (16, 31),
+    (512, 1535),
+    (30, 255),
+));
 static FX2N: Ranges = ranges((512, 999), (100, 199), (100, 199), (512, 1535), (30, 127));
 static FX1N: Ranges = ranges((400, 999), (100, 199), (100, 199), (512, 1535), (30, 127));
-static FX1S: Ranges = ranges((128, 255), (16, 31), (16, 31), (256, 511), (30, 62));
+static FX1S: Ranges = without_ticks(ranges((128, 255), (16, 31), (16, 31), (256, 511), (30, 62)));
 
 /// The reserved devices for a model. Models of other makers have those of the Mitsubishi model whose projects they
 /// take.

@@ -74,12 +74,15 @@ impl Compiler<'_> {
         let unit = &self.units[instance.unit];
         let bound = bind(unit, instance, args, call)?;
         let mut errors = Vec::new();
-        let is_input = |(label, _): &&(&Label, &Arg)| label.role == Role::Input;
+        let is_input = |(label, _): &&(&Label, &Arg)| label.role != Role::Output;
         let inputs: Vec<_> = bound.iter().filter(is_input).collect();
         // A call among the arguments may be one of the same subroutine.
         let is_later = inputs.len() > 1 && inputs.iter().any(|(_, arg)| changes_index(&arg.value));
         let mut stored = Vec::new();
         for (label, arg) in inputs {
+            if label.role == Role::InOut {
+                self.check_given_back(label, &arg.value)?;
+            }
             match self.input(label, &arg.value, is_later) {
                 Ok(later) => stored.extend(later),
                 Err(more) => errors.extend(more),
@@ -94,8 +97,20 @@ impl Compiler<'_> {
         let pointer = self.routine(instance, call)?;
         let pointer = self.here(OperandKind::Device(pointer, None));
         self.always("CALL", [pointer]);
-        for (label, arg) in bound.iter().filter(|(label, _)| label.role == Role::Output) {
+        for (label, arg) in bound.iter().filter(|(label, _)| label.role != Role::Input) {
             self.output(label, &arg.value)?;
+        }
+        Ok(())
+    }
+
+    /// Reports an argument that is given back and cannot be: a constant, a computed value, or an element that the call
+    /// may change to another.
+    fn check_given_back(&self, label: &Label, value: &Expr) -> Made<()> {
+        let place = self.target(value)?;
+        if place.is_variable() {
+            let what = format!("`{}` takes no element with a variable index", label.name);
+            let error = codes::ST_UNSUPPORTED.at(value.span, what);
+            return fail(error.help("copy it to a label, and back after the call"));
         }
         Ok(())
     }
@@ -314,7 +329,8 @@ fn bind<'c>(
     call: &Expr,
 ) -> Made<Vec<(&'c Label, &'c Arg)>> {
     let sections = unit.sections.iter();
-    let inputs = sections.filter(|section| section.keyword.text == "VAR_INPUT");
+    let is_input = |keyword: &str| matches!(keyword, "VAR_INPUT" | "VAR_IN_OUT");
+    let inputs = sections.filter(|section| is_input(&section.keyword.text));
     let names = inputs
         .flat_map(|section| &section.variables)
         .flat_map(|variable| &variable.names);
@@ -354,7 +370,8 @@ fn bind<'c>(
     }
     if unit.kind == UnitKind::Function {
         let missing = instance.own.all().find(|label| {
-            label.role == Role::Input && !bound.iter().any(|(given, _)| given.name == label.name)
+            matches!(label.role, Role::Input | Role::InOut)
+                && !bound.iter().any(|(given, _)| given.name == label.name)
         });
         if let Some(missing) = missing {
             let what = format!("`{}` of `{}` is not given", missing.name, unit.name.text);

@@ -305,6 +305,11 @@ fn all(inputs: &Inputs, cx: Context) -> std::result::Result<(Vec<Subject>, bool)
     if inputs.files.is_empty() {
         files.push(projects.own()?);
     }
+    for file in &mut files {
+        if let Some(project) = projects.of(file)?.filter(|one| !one.parts.is_empty()) {
+            *file = near(project.whole(std::mem::take(file)));
+        }
+    }
     let mut seen = BTreeSet::new();
     files.retain(|file| seen.insert(file.clone()));
     let subjects = files.into_iter().map(|file| projects.subject(file));

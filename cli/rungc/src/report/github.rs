@@ -37,7 +37,8 @@ pub fn findings(findings: &Findings) -> String {
 
 /// A command that marks a place in a file, or the file.
 pub fn annotation(level: &str, file: &Path, place: &Location, title: &str, text: &str) -> String {
-    let file = named(file).replace(std::path::MAIN_SEPARATOR, "/");
+    let file = place.file.clone().unwrap_or_else(|| named(file));
+    let file = file.replace(std::path::MAIN_SEPARATOR, "/");
     format!(
         "::{level} file={}{},title={}::{}\n",
         property(&file),

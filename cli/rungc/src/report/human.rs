@@ -9,12 +9,13 @@
 use super::Findings;
 use super::visible::{visible, visible_line};
 use super::window::Window;
-use ariadne::{Color, Config, Label, Report, ReportKind, Source};
+use ariadne::{Color, Config, Label, Report, ReportKind};
 use rungc::Language;
 use rungc::language::{self, message};
 use rungc::location::instr_at;
 use rungc_syntax::{Diagnostic, Severity, Span, codes};
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::ops::Range;
 
@@ -27,9 +28,6 @@ const GAP: &str = "\n\n";
 /// Stands before texts in a drawing, so that the words of the library before them can be found. Sources and messages
 /// have it written out.
 const MARK: char = '\u{1}';
-
-/// The line and column that the library adds to the head of a drawing.
-const FIRST: &str = ":1:1";
 
 /// Presentation of diagnostics.
 #[derive(Clone, Copy, Debug)]
@@ -86,7 +84,7 @@ fn draw(findings: &Findings, name: &str, d: &Diagnostic, style: Style) -> io::Re
     let Style {
         color, language, ..
     } = style;
-    let main = match d.severity {
+    let main_color = match d.severity {
         Severity::Error => Color::Red,
         Severity::Warning => Color::Yellow,
         Severity::Note => Color::Cyan,
@@ -98,18 +96,21 @@ fn draw(findings: &Findings, name: &str, d: &Diagnostic, style: Style) -> io::Re
             true => message(language, "here", &[]).into(),
             false => said(&d.label),
         },
-        color: main,
+        color: main_color,
     }];
     marks.extend(d.others.iter().take(MAX_PLACES).map(|other| Mark {
         span: other.span,
         text: said(&other.text),
         color: Color::Blue,
     }));
-    marks.sort_by_key(|mark| mark.span.start);
+    let main = file_of(findings, d.span);
+    marks.sort_by_key(|mark| (file_of(findings, mark.span) != main, mark.span.start));
     let rows = rows(findings, &marks);
     let (source, labels) = excerpt(&rows);
-    let head = findings.location(d.span).unwrap_or_default().headed(name);
-    let head = visible_line(&head);
+    let heads = heads(findings, d.span, &marks, name);
+    let head_of = |span| heads.get(&file_of(findings, span)).cloned();
+    let head_of = |span| head_of(span).unwrap_or_default();
+    let head = head_of(d.span);
     let heading = format!("{}[{}]", severity(d.severity, language), d.code);
     let detail = said(&d.message);
     let detail = visible_line(&detail);
@@ -118,36 +119,28 @@ fn draw(findings: &Findings, name: &str, d: &Diagnostic, style: Style) -> io::Re
         Some(_) => format!("{MARK}{text}"),
         None => text.to_owned(),
     };
-    let mut report = Report::build(ReportKind::Custom(&heading, main), (&*head, 0..0))
+    let mut report = Report::build(ReportKind::Custom(&heading, main_color), (head, 0..0))
         .with_config(Config::default().with_color(color))
         .with_message(marked(title.as_deref().unwrap_or(&detail)));
     for (range, mark) in labels {
-        let label = Label::new((&*head, range)).with_message(visible_line(&mark.text));
+        let label = Label::new((head_of(mark.span), range));
+        let label = label.with_message(visible_line(&mark.text));
         report.add_label(label.with_color(mark.color));
     }
     if let Some(help) = &d.help {
         report.add_help(marked(&visible_line(&said(help))));
     }
-    let more = d.others.len().saturating_sub(MAX_PLACES);
-    if more > 0 {
-        let more = more.to_string();
-        let more = message(language, "more-places", &[("count", (&more).into())]);
-        report.add_note(marked(&more));
+    let hidden = d.others.len().saturating_sub(MAX_PLACES);
+    if hidden > 0 {
+        let count = hidden.to_string();
+        let places = message(language, "more-places", &[("count", (&count).into())]);
+        report.add_note(marked(&places));
     }
-    let number = d.plc_error.map(|number| number.to_string());
-    let id = if number.is_some() {
-        "more-of-plc"
-    } else {
-        "more"
-    };
-    let arguments = [
-        ("code", d.code.into()),
-        ("number", number.as_deref().unwrap_or_default().into()),
-    ];
-    report.add_note(marked(&message(language, id, &arguments)));
+    report.add_note(marked(&more(d, language)));
     let mut drawn = Vec::new();
-    let source = Source::from(source);
-    report.finish().write((&*head, &source), &mut drawn)?;
+    let sources = heads.values().map(|head| (head.clone(), source.clone()));
+    let cache = ariadne::sources(sources);
+    report.finish().write(cache, &mut drawn)?;
     let drawn = String::from_utf8_lossy(&drawn);
     let drawn = numbered(&drawn, &rows);
     let drawn = match title {
@@ -159,6 +152,44 @@ fn draw(findings: &Findings, name: &str, d: &Diagnostic, style: Style) -> io::Re
         // The library colours the heading even where colours are off.
         false => anstream::adapter::strip_str(&drawn).to_string(),
     })
+}
+
+/// The note on how to read more about a diagnostic.
+fn more(d: &Diagnostic, language: Language) -> String {
+    let number = d.plc_error.map(|number| number.to_string());
+    let id = if number.is_some() {
+        "more-of-plc"
+    } else {
+        "more"
+    };
+    let arguments = [
+        ("code", d.code.into()),
+        ("number", number.as_deref().unwrap_or_default().into()),
+    ];
+    message(language, id, &arguments)
+}
+
+/// Start of the file that holds a span, where a program is made of several.
+fn file_of(findings: &Findings, span: Span) -> Option<u32> {
+    let program = findings.program?;
+    Some(program.source.part(span.start)?.start)
+}
+
+/// Heads of the files: the place of the finding, and the first place in the others.
+fn heads(
+    findings: &Findings,
+    span: Span,
+    marks: &[Mark],
+    name: &str,
+) -> BTreeMap<Option<u32>, String> {
+    let mut heads = BTreeMap::new();
+    for span in [span].into_iter().chain(marks.iter().map(|mark| mark.span)) {
+        heads.entry(file_of(findings, span)).or_insert_with(|| {
+            let head = findings.location(span).unwrap_or_default().headed(name);
+            visible_line(&head).into_owned()
+        });
+    }
+    heads
 }
 
 /// Severity in a language.
@@ -269,12 +300,13 @@ fn numbered(drawn: &str, rows: &[Row]) -> String {
     let own = head.len() - head.trim_start().len();
     let width = rows.iter().map(|row| row.number.len() + 2).max();
     let wider = width.unwrap_or(0).saturating_sub(own);
-    let head = match head.rsplit_once(FIRST) {
-        Some((before, after)) => format!("{before}{after}"),
-        None => head.to_owned(),
-    };
-    push(&format!("{}{head}", " ".repeat(wider)));
+    push(&format!("{}{}", " ".repeat(wider), without_place(head)));
     for line in lines {
+        let plain = anstream::adapter::strip_str(line).to_string();
+        if plain.trim_start().starts_with("├─[ ") {
+            push(&format!("{}{}", " ".repeat(wider), without_place(line)));
+            continue;
+        }
         let (margin, content) = line.split_at(line.find(['│', '─']).unwrap_or(0));
         let blank = margin.trim_end();
         let unnumbered = blank.trim_end_matches(|c: char| c.is_ascii_digit());
@@ -298,10 +330,28 @@ fn numbered(drawn: &str, rows: &[Row]) -> String {
     text
 }
 
+/// A head without the line and column that the library adds.
+fn without_place(head: &str) -> String {
+    let is_number = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
+    // The bracket may be coloured, the place never is.
+    let bracket = head.rfind(']').map(|at| &head[..at]);
+    let Some((place, _)) = bracket.and_then(|before| before.rsplit_once(' ')) else {
+        return head.to_owned();
+    };
+    let mut parts = place.rsplitn(3, ':');
+    match (parts.next(), parts.next(), parts.next()) {
+        (Some(column), Some(line), Some(name)) if is_number(column) && is_number(line) => {
+            format!("{name}{}", &head[place.len()..])
+        }
+        _ => head.to_owned(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Color, Config, Label, Mark, Report, ReportKind, Row, Source, Span};
+    use super::{Color, Config, Label, Mark, Report, ReportKind, Row, Span};
     use super::{Window, excerpt, numbered};
+    use ariadne::Source;
 
     /// Draws marks in separate rows, each with its number.
     fn drawing(text: &str, marks: &[(&str, u32, u32)], color: bool) -> String {

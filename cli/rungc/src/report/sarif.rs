@@ -164,7 +164,9 @@ fn artifact(path: &Path) -> Value {
 
 fn location(findings: &Findings, span: Span, text: Option<&str>) -> Value {
     let found = findings.location(span);
-    let mut physical = json!({ "artifactLocation": artifact(findings.path) });
+    let file = found.as_ref().and_then(|found| found.file.as_deref());
+    let file = file.map_or(findings.path, Path::new);
+    let mut physical = json!({ "artifactLocation": artifact(file) });
     if let Some(region) = found.as_ref().and_then(region) {
         physical["region"] = region;
     }

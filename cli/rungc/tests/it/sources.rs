@@ -42,7 +42,7 @@ fn sources_become_a_folder() {
         "libraries/Maths/Half.st",
         "libraries/Maths/structures/Point.st",
         "structures/Axis.st",
-        "tasks.txt",
+        "tasks.st",
     ];
     assert_eq!(made, expected);
     let main = fs::read_to_string(path.join("out/Main.st")).unwrap();
@@ -177,4 +177,109 @@ fn labels_name_devices_on_the_command_line() {
         "{}",
         text(&check.stderr)
     );
+}
+
+/// Files of a program in structured text; the function has a mistake in its second line.
+const LINE: [(&str, &str); 4] = [
+    (
+        "Global.st",
+        "VAR_GLOBAL\n    Start AT X0 : BOOL;\n    Level AT D0 : INT;\nEND_VAR\n",
+    ),
+    (
+        "Main.st",
+        "PROGRAM Main\nY0 := Start;\nLevel := Twice(Level);\nEND_PROGRAM\n",
+    ),
+    (
+        "Second.st",
+        "PROGRAM Second\nY1 := Start AND NOT Y0;\nEND_PROGRAM\n",
+    ),
+    (
+        "parts/Twice.st",
+        "FUNCTION Twice : INT\nVAR_INPUT N : INT; END_VAR\nTwice := N + N;\nEND_FUNCTION\n",
+    ),
+];
+
+/// Writes these files, and more.
+fn write(folder: &Path, more: &[(&str, &str)]) {
+    fs::create_dir_all(folder.join("parts")).unwrap();
+    for (name, contents) in LINE.iter().chain(more) {
+        fs::write(folder.join(name), contents).unwrap();
+    }
+}
+
+#[test]
+fn a_folder_of_structured_text_is_a_program() {
+    let folder = folder(&[]);
+    let path = folder.path();
+    write(path, &[]);
+    let list = rungc(path, &["convert", ".", "--to", "il"]);
+    let list = text(&list.stdout);
+    let order = ["; Y0 := ", "; Y1 := "].map(|statement| list.find(statement));
+    assert!(order[0].is_some() && order[0] < order[1], "{list}");
+    let checked = rungc(path, &["check", "."]);
+    assert!(checked.status.success(), "{}", text(&checked.stderr));
+    // The settings name another order; each file stands for all.
+    let settings =
+        "[project]\nprogram = [\"Second.st\", \"Main.st\", \"Global.st\", \"parts/Twice.st\"]\n";
+    write(path, &[("rungc.toml", settings)]);
+    for arguments in [
+        &["convert", "--to", "il"][..],
+        &["convert", ".", "--to", "il"],
+        &["convert", "parts/Twice.st", "--to", "il"],
+    ] {
+        let list = rungc(path, arguments);
+        let list = text(&list.stdout);
+        let order = ["; Y1 := ", "; Y0 := "].map(|statement| list.find(statement));
+        assert!(
+            order[0].is_some() && order[0] < order[1],
+            "{arguments:?}: {list}"
+        );
+    }
+    let checked = rungc(path, &["check", "."]);
+    assert!(checked.status.success(), "{}", text(&checked.stderr));
+}
+
+#[test]
+fn mistakes_are_shown_in_the_files_of_a_program() {
+    let folder = folder(&[]);
+    let path = folder.path();
+    let again = "(* again *)\nFUNCTION Twice : INT\nTwice := 1;\nEND_FUNCTION\n";
+    write(path, &[("parts/Zwo.st", again)]);
+    let checked = rungc(path, &["check", "."]);
+    insta::assert_snapshot!(text(&checked.stderr).replace('\\', "/"));
+    let github = rungc(path, &["check", ".", "--format", "github"]);
+    let github = text(&github.stdout);
+    assert!(
+        github.starts_with("::error file=parts/Zwo.st,line=2,endLine=2,"),
+        "{github}"
+    );
+    let json = rungc(path, &["check", ".", "--format", "json"]);
+    let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    let found = &json["diagnostics"][0];
+    assert_eq!(found["line"], 2);
+    assert_eq!(found["related"][0]["line"], 1);
+    for (place, file) in [(found, "Zwo.st"), (&found["related"][0], "Twice.st")] {
+        assert!(place["file"].as_str().unwrap().ends_with(file), "{json}");
+    }
+    let sarif = rungc(path, &["check", ".", "--format", "sarif"]);
+    assert!(text(&sarif.stdout).contains("\"uri\": \"parts/Zwo.st\""));
+}
+
+#[test]
+fn a_written_project_is_checked() {
+    let folder = folder(&[("press.gxw", &project("sources.gxw"))]);
+    let path = folder.path();
+    rungc(path, &["convert", "press.gxw", "--to", "st", "-o", "out"]);
+    // One of its blocks is a ladder.
+    let checked = rungc(path, &["check", "out"]);
+    let found = text(&checked.stderr);
+    assert!(found.contains("out/Main.st:8:3"), "{found}");
+    let main = fs::read_to_string(path.join("out/Main.st")).unwrap();
+    fs::write(
+        path.join("out/Main.st"),
+        main.replace("Count1(In := Axis1.Ready);", ""),
+    )
+    .unwrap();
+    let checked = rungc(path, &["check", "out"]);
+    assert!(checked.status.success(), "{}", text(&checked.stderr));
 }

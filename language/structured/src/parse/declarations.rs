@@ -4,8 +4,8 @@ use super::expressions::expression;
 use super::statements::body;
 use super::{ENDS, Rule, closing, is_any, keyword, name, place, rest, semicolon, sign};
 use crate::ast::{
-    Body, Expr, ExprKind, Name, Section, Stmt, StmtKind, Structure, Text, TypeName, Unit, UnitKind,
-    Variable,
+    Body, Configuration, Expr, ExprKind, Name, Runs, Section, Stmt, StmtKind, Structure, Task,
+    Text, TypeName, Unit, UnitKind, Variable,
 };
 use crate::token::{Lexeme, Token};
 use chumsky::prelude::*;
@@ -14,6 +14,7 @@ enum Part {
     Unit(Box<Unit>),
     Globals(Section),
     Structures(Vec<Structure>),
+    Configuration(Configuration),
     Unread,
 }
 
@@ -29,6 +30,7 @@ pub(super) fn text<'t>() -> Rule<'t, Text> {
         unit.map(|unit| Part::Unit(Box::new(unit))).boxed(),
         section(true).map(Part::Globals).boxed(),
         structures().map(Part::Structures).boxed(),
+        configuration().map(Part::Configuration).boxed(),
     ));
     let skipped = any()
         .filter(|lexeme: &Lexeme| !starts(lexeme.token))
@@ -45,6 +47,7 @@ pub(super) fn text<'t>() -> Rule<'t, Text> {
                     Part::Unit(unit) => text.units.push(*unit),
                     Part::Globals(section) => text.globals.push(section),
                     Part::Structures(all) => text.structures.extend(all),
+                    Part::Configuration(one) => text.configurations.push(one),
                     Part::Unread => {}
                 }
             }
@@ -62,8 +65,62 @@ fn starts(token: Token) -> bool {
             "FUNCTION_BLOCK",
             "TYPE",
             "VAR_GLOBAL",
+            "CONFIGURATION",
         ],
     )
+}
+
+/// `CONFIGURATION Line … END_CONFIGURATION`, with or without a RESOURCE around the tasks.
+fn configuration<'t>() -> Rule<'t, Configuration> {
+    enum Row {
+        Task(Task),
+        Program(Runs),
+    }
+    let setting = name().then_ignore(sign(":=")).then(expression());
+    let settings = setting.separated_by(sign(",")).collect::<Vec<_>>();
+    let settings = settings.delimited_by(sign("("), sign(")"));
+    let task = keyword("TASK").ignore_then(name()).then(settings.or_not());
+    let task = task.map(|(name, settings)| {
+        let settings = settings.unwrap_or_default();
+        Row::Task(Task { name, settings })
+    });
+    let of_task = keyword("WITH").ignore_then(name()).or_not();
+    let program = keyword("PROGRAM").ignore_then(name()).then(of_task);
+    let program = program.then(sign(":").ignore_then(name()).or_not());
+    // An instance of a program has its type after a colon.
+    let program = program.map(|((name, task), of)| {
+        let program = of.unwrap_or(name);
+        Row::Program(Runs { program, task })
+    });
+    let row = choice((task.boxed(), program.boxed())).then_ignore(semicolon());
+    let rows = row.repeated().collect::<Vec<_>>();
+    let resource = keyword("RESOURCE")
+        .then(name())
+        .then(keyword("ON").then(name()));
+    let inside = resource
+        .ignore_then(rows.clone())
+        .then_ignore(keyword("END_RESOURCE"))
+        .then_ignore(semicolon());
+    keyword("CONFIGURATION")
+        .then_ignore(name())
+        .then(choice((inside.boxed(), rows.boxed())))
+        .then_ignore(keyword("END_CONFIGURATION"))
+        .then_ignore(semicolon())
+        .map(|(head, rows)| {
+            let mut all = Configuration {
+                head,
+                tasks: Vec::new(),
+                programs: Vec::new(),
+            };
+            for row in rows {
+                match row {
+                    Row::Task(task) => all.tasks.push(task),
+                    Row::Program(runs) => all.programs.push(runs),
+                }
+            }
+            all
+        })
+        .boxed()
 }
 
 fn unit<'t>(first: &'static str, last: &'static str, kind: UnitKind) -> Rule<'t, Unit> {
@@ -197,7 +254,17 @@ fn variable<'t>() -> Rule<'t, Variable> {
         .separated_by(sign(","))
         .at_least(1)
         .collect::<Vec<_>>();
-    let place_of = keyword("AT").ignore_then(device());
+    let member = name().then_ignore(sign(":=")).then(device());
+    let members = member
+        .separated_by(sign(","))
+        .at_least(1)
+        .collect::<Vec<_>>();
+    let members = members.delimited_by(sign("("), sign(")"));
+    let place_of = keyword("AT").ignore_then(choice((
+        members.map(|members| (None, members)).boxed(),
+        device().map(|device| (Some(device), Vec::new())).boxed(),
+    )));
+    let place_of = place_of.boxed();
     let initial = sign(":=").ignore_then(choice((expression(), values())));
     names
         .then(place_of.or_not())
@@ -205,16 +272,18 @@ fn variable<'t>() -> Rule<'t, Variable> {
         .then(type_name())
         .then(initial.or_not())
         .then(semicolon())
-        .map_with(
-            |((((names, place_of), of), initial), is_ended), e| Variable {
+        .map_with(|((((names, place_of), of), initial), is_ended), e| {
+            let (stated, members) = place_of.unwrap_or_default();
+            Variable {
                 names,
-                place: place_of,
+                place: stated,
+                members,
                 of,
                 initial,
                 is_ended,
                 span: place(e),
-            },
-        )
+            }
+        })
         .boxed()
 }
 

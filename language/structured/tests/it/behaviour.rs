@@ -218,3 +218,61 @@ fn structures_nest_and_instances_have_members() {
     let words = [2, 3, 4].map(|number| machine.word(Class::D, number).unwrap());
     assert_eq!(words, [5, 12, 6]);
 }
+
+#[test]
+fn blocks_in_arrays_are_instances() {
+    let text = "FUNCTION_BLOCK Pair\nVAR_INPUT\n    Go : BOOL;\nEND_VAR\nVAR_OUTPUT\n    Sum : INT;\nEND_VAR\n\
+         VAR\n    Up : ARRAY [1..2] OF CTU;\nEND_VAR\nUp[1](CU := Go, PV := 9);\n\
+         Up[2](CU := Go AND X7, PV := 9);\nSum := Up[1].CV * 10 + Up[2].CV;\nEND_FUNCTION_BLOCK\n\
+         PROGRAM P\nVAR CONSTANT\n    Last : INT := 1;\nEND_VAR\nVAR\n    All : ARRAY [0..Last, -1..0] OF Pair;\nEND_VAR\n\
+         All[0, -1](Go := X0);\nAll[Last, 0](Go := X1);\nD0 := All[0, -1].Sum;\nD1 := All[1, 0].Sum;\n\
+         D2 := All[0, -1].Up[1].CV;\nEND_PROGRAM\n";
+    let module = module(text, ModelId::Fx3u);
+    let mut machine = Machine::new(&module);
+    for scan in 0..6 {
+        let is_on = scan % 2 == 1;
+        machine.set_bit(Class::X, 0, is_on);
+        machine.set_bit(Class::X, 1, is_on && scan > 1);
+        machine.set_bit(Class::X, 7, scan > 4);
+        machine.scan(&mut NoHal, 0, 10_000);
+    }
+    let words = [0, 1, 2].map(|number| machine.word(Class::D, number).unwrap());
+    assert_eq!(words, [31, 21, 3]);
+}
+
+#[test]
+fn functions_change_what_they_are_given_to_change() {
+    let text = "FUNCTION Change : BOOL\nVAR_IN_OUT\n    A, B : INT;\n    Done : BOOL;\nEND_VAR\nVAR\n    Old : INT;\nEND_VAR\n\
+         Old := A;\nA := B;\nB := Old;\nChange := Done;\nDone := TRUE;\nEND_FUNCTION\n\
+         PROGRAM P\nVAR\n    All : ARRAY [0..1] OF INT;\n    Was : BOOL;\nEND_VAR\n\
+         All[0] := D0;\nAll[1] := D1;\nY0 := Change(All[0], All[1], Done := Was);\nD2 := All[0];\nD3 := All[1];\n\
+         Y1 := Was;\nEND_PROGRAM\n";
+    for model in [ModelId::Fx1s, ModelId::Fx3u] {
+        let module = module(text, model);
+        let mut machine = Machine::new(&module);
+        machine.set_word(Class::D, 0, 5);
+        machine.set_word(Class::D, 1, 7);
+        machine.scan(&mut NoHal, 0, 10_000);
+        let words = [2, 3].map(|number| machine.word(Class::D, number).unwrap());
+        assert_eq!(words, [7, 5], "{model:?}");
+        assert_eq!([0, 1].map(|number| machine.output(number)), [false, true]);
+        machine.scan(&mut NoHal, 10, 10_000);
+        assert_eq!([0, 1].map(|number| machine.output(number)), [true, true]);
+    }
+}
+
+#[test]
+fn members_have_stated_devices() {
+    let text = "TYPE Axis :\nSTRUCT\n    On : BOOL;\n    Place : DINT;\n    Was : INT;\n    Now : BOOL;\nEND_STRUCT\nEND_TYPE\n\
+         PROGRAM P\nVAR\n    Copy : Axis;\n    First AT (On := X0, Place := D10, Now := Y5) : Axis;\nEND_VAR\n\
+         First.Now := First.On;\nFirst.Place := 100000;\nFirst.Was := 7;\nCopy := First;\nD0 := Copy.Was;\n\
+         IF Copy.Place = 100000 THEN\n    Y1 := Copy.Now;\nEND_IF;\nEND_PROGRAM\n";
+
+    let module = module(text, ModelId::Fx3u);
+    let mut machine = Machine::new(&module);
+    machine.set_bit(Class::X, 0, true);
+    machine.scan(&mut NoHal, 0, 10_000);
+    assert_eq!([1, 5].map(|number| machine.output(number)), [true; 2]);
+    let words = [0, 10, 11].map(|number| machine.word(Class::D, number).unwrap());
+    assert_eq!(words, [7, (100_000 % 65_536) as u16 as i16, 1]);
+}

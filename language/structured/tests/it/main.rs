@@ -2,6 +2,7 @@
 //! vendor's compiler makes.
 
 mod behaviour;
+mod files;
 mod model;
 mod random;
 mod robust;

@@ -186,7 +186,13 @@ fn what_is_not_compiled_has_a_reason() {
          END_STRUCT\nEND_TYPE\nPROGRAM P\nVAR\n    a : A;\nEND_VAR\nEND_PROGRAM\n",
     );
     all += &shown(
-        "PROGRAM P\nVAR\n    t : ARRAY [0..3] OF TON;\n    u AT D0 : CTU;\nEND_VAR\nEND_PROGRAM\n",
+        "PROGRAM P\nVAR\n    t : ARRAY [0..3] OF TON;\n    u AT D0 : CTU;\nEND_VAR\n\
+         t[4](IN := X0);\nt[D0](IN := X0);\nY0 := t[D0].Q;\nt(IN := X0);\nY1 := Y2[3];\nEND_PROGRAM\n",
+    );
+    all += &shown(
+        "FUNCTION Bump : INT\nVAR_IN_OUT\n    n : INT;\nEND_VAR\nn := n + 1;\nBump := n;\nEND_FUNCTION\n\
+         PROGRAM P\nVAR\n    x : ARRAY [0..3] OF INT;\nEND_VAR\n\
+         D0 := Bump(5);\nD0 := Bump(D1 + 1);\nD0 := Bump(x[D1]);\nD0 := Bump();\nEND_PROGRAM\n",
     );
     all += &shown(&parts(
         "i := One;\nOne := 5;\nOne := x;\nx[c] := 1;\nx[10] := 1;\nOne.Sped := 1;\nx := x;\nSET(c, f[i]);\n\
@@ -199,6 +205,11 @@ fn what_is_not_compiled_has_a_reason() {
          FUNCTION H\nH();\nEND_FUNCTION\n\
          PROGRAM P\nVAR\n    t : TON;\nEND_VAR\nD0 := F();\nD0 := F(1, 2);\nD0 := F(1);\nD0 := F(m := 1);\n\
          t(X0);\nt(In := X0, PT := 5.5);\nt(PP := 1);\nY0 := t.R;\nt();\nEND_PROGRAM\n",
+    );
+    all += &shown(
+        "TYPE A :\nSTRUCT\n    b : BOOL;\n    n : INT;\nEND_STRUCT\nEND_TYPE\nPROGRAM P\nVAR\n    \
+         a AT (b := D5) : A;\n    c AT (x := M5) : A;\n    d AT (n := D5, N := D6) : A;\n    \
+         e AT (n := D5) : INT;\n    t AT (Q := M0) : TON;\nEND_VAR\nEND_PROGRAM\n",
     );
     insta::assert_snapshot!(all);
 }

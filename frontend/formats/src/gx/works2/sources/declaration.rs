@@ -47,12 +47,25 @@ fn line(label: &Label, sources: &Sources, path: &str, chosen: &Chosen) -> String
     if !label.device.is_empty() {
         let _ = write!(line, " AT {}", label.device);
     }
+    let members = members(label, sources);
+    let stated: Option<Vec<_>> = members
+        .iter()
+        .map(|(name, device)| Some(format!("{} := {device}", (*name)?)))
+        .collect();
+    let stated = stated.filter(|all| label.device.is_empty() && !all.is_empty());
+    if let Some(all) = &stated {
+        let _ = write!(line, " AT ({})", all.join(", "));
+    }
     let _ = write!(line, " : {}", label.data_type);
     if !label.initial.is_empty() {
         let _ = write!(line, " := {}", label.initial);
     }
     line.push(';');
-    let mut remarks = members(label, sources);
+    // Structures in an array have no separate names.
+    let unnamed = members.iter().filter(|_| stated.is_none());
+    let mut remarks: Vec<_> = unnamed
+        .map(|(name, device)| format!(".{} AT {device}", name.unwrap_or_default()))
+        .collect();
     let name = format!("{path}{}", label.name).to_lowercase();
     if let Some(device) = chosen.get(&name) {
         remarks.push(format!("{device}, chosen by the compiler"));
@@ -67,18 +80,18 @@ fn line(label: &Label, sources: &Sources, path: &str, chosen: &Chosen) -> String
     line
 }
 
-/// Devices of a structure's members.
-fn members(label: &Label, sources: &Sources) -> Vec<String> {
+/// Devices of a structure's members, with their names where these are known.
+fn members<'s>(label: &'s Label, sources: &'s Sources) -> Vec<(Option<&'s str>, &'s str)> {
     let structure = sources.structure(&label.type_name);
     let members = structure.map(Structure::numbered).unwrap_or_default();
     let names = members.iter().map(|member| member.name.as_str());
     let is_known = members.len() == label.members.len() && !label.is_array;
-    let names = names.map(|name| if is_known { name } else { "" });
-    let names = names.chain(std::iter::repeat(""));
+    let names = names.map(|name| Some(name).filter(|_| is_known));
+    let names = names.chain(std::iter::repeat(None));
     let places = label.members.iter().zip(names);
     let places = places.filter(|(place, _)| !place.device.is_empty());
     places
-        .map(|(place, name)| format!(".{name} AT {}", place.device))
+        .map(|(place, name)| (name, place.device.as_str()))
         .collect()
 }
 
@@ -123,7 +136,7 @@ pub(super) fn structure(structure: &Structure) -> String {
 
 /// Tasks, and the programs that they run.
 pub(super) fn tasks(tasks: &[Task]) -> String {
-    let mut out = String::new();
+    let mut out = "CONFIGURATION Project\n".to_owned();
     for task in tasks {
         let when = match (task.event.as_str(), task.interval.as_str()) {
             ("TRUE", _) => String::new(),
@@ -132,12 +145,12 @@ pub(super) fn tasks(tasks: &[Task]) -> String {
         };
         let _ = writeln!(
             out,
-            "TASK {}({when}PRIORITY := {});",
+            "    TASK {}({when}PRIORITY := {});",
             task.name, task.priority
         );
         for pou in &task.pous {
-            let _ = writeln!(out, "PROGRAM {pou} WITH {};", task.name);
+            let _ = writeln!(out, "    PROGRAM {pou} WITH {} : {pou};", task.name);
         }
     }
-    out
+    out + "END_CONFIGURATION\n"
 }

@@ -97,7 +97,7 @@ impl Sources {
         }
         if !self.tasks.is_empty() {
             let text = declaration::tasks(&self.tasks);
-            files.add((&None, "", "tasks"), "txt", text.into_bytes());
+            files.add((&None, "", "tasks"), "st", text.into_bytes());
         }
         files.sorted()
     }
