@@ -9,6 +9,7 @@ use rungc_syntax::{Argument, Phrase, codes};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use unicode_width::UnicodeWidthChar;
 use walkdir::WalkDir;
 
 /// Folders whose diagnostics are translated, and the file with their phrases.
@@ -194,6 +195,13 @@ fn every_sentence_is_translated_from_its_present_text() {
                 Some((_, chinese)) => {
                     if arguments(&sentence, "{") != arguments(&chinese, "{ $") {
                         wrong.push(format!("{id}: other arguments"));
+                    }
+                    let prose: String = chinese.split('`').step_by(2).collect();
+                    let unclear = prose.chars().find(|&c| c.width() != c.width_cjk());
+                    if let Some(c) = unclear {
+                        wrong.push(format!(
+                            "{id}: terminals draw `{c}` one or two columns wide"
+                        ));
                     }
                     if quoted(&sentence) != quoted(&chinese) {
                         wrong.push(format!("{id}: other texts in back quotes"));

@@ -7,17 +7,32 @@ t-a-call-that-is-too-deep-is-skipped-91f5ade5 = 过深的调用执行到时被�
 # a high-speed counter counts while its coil is driven: `OUT {counter} K…`
 t-a-high-speed-counter-counts-while-its-coil-01240c73 = 高速计数器在线圈被驱动期间计数：`OUT { $counter } K…`
 
+# a loop
+t-a-loop-98ec749a = 循环
+
+# a master control zone
+t-a-master-control-zone-3a03c20b = 主控区
+
 # a PLC may reject it
 t-a-plc-may-reject-it-470d4dec = PLC 可能不接受
 
 # a program contains at least END
 t-a-program-contains-at-least-end-c3cee806 = 程序至少要有 END
 
+# a program with this instruction cannot be built
+t-a-program-with-this-instruction-cannot-be-built-cd50ea64 = 含有此指令的程序不能编译
+
 # a protocol that is chosen only here is missing from a compiled program
 t-a-protocol-that-is-chosen-only-here-is-12b3fc6f = 仅在此处选择的协议，编译后的程序中没有
 
-# a {within} is not allowed inside a {outside}
-t-a-within-is-not-allowed-inside-a-outside-0faf5dfe = { $within }不允许位于{ $outside }之中
+# a step ladder
+t-a-step-ladder-23f4ef8a = 步进梯形图
+
+# a subroutine
+t-a-subroutine-b128456e = 子程序
+
+# a subroutine ends with SRET, an interrupt routine with IRET
+t-a-subroutine-ends-with-sret-an-interrupt-routine-45741b92 = 子程序以 SRET 结束，中断程序以 IRET 结束
 
 # add a `[[module]]` with its kind to rungc.toml: one of {many}
 t-add-a-module-with-its-kind-to-rungc-822271eb = 在 rungc.toml 中加入相应类型的 `[[module]]`，类型为以下之一：{ $many }
@@ -40,8 +55,14 @@ t-add-set-m-number-where-it-should-run-70a1ab26 = 在应执行它的位置加 `S
 # add `SET M{relay}` where it may run, for example under M8002
 t-add-set-m-relay-where-it-may-run-c0000eb6 = 在允许它执行的位置加 `SET M{ $relay }`，如由 M8002 驱动
 
+# {all} have no effect in a compiled program: {why}
+t-all-have-no-effect-in-a-compiled-program-55d9cac5 = { $all } 在编译后的程序中不起作用：{ $why }
+
 # always jumps back …
 t-always-jumps-back-8b9c5330 = 总是从此处跳回...
+
+# an interrupt routine
+t-an-interrupt-routine-d2559fcd = 中断程序
 
 # an operation error each time this runs; the result does not change
 t-an-operation-error-each-time-this-runs-the-a7f4bbfa = 每次执行都发生运算错误；结果不变
@@ -103,6 +124,9 @@ t-calls-may-nest-depth-deep-but-name-allows-4b22b662 = 调用可能嵌套 { $dep
 # calls nest {depth} deep, but {name} allows {max}
 t-calls-nest-depth-deep-but-name-allows-max-2368b79d = 调用嵌套 { $depth } 层，但 { $name } 最多允许 { $max } 层
 
+# change the PLC parameters in the editor, or choose another model with `--model`
+t-change-the-plc-parameters-in-the-editor-or-e26a49e5 = 在编程软件中修改 PLC 参数，或用 `--model` 选择其他机型
+
 # close branches with MPP, or start a new rung with a relay that holds the result
 t-close-branches-with-mpp-or-start-a-new-c0069fed = 用 MPP 结束分支，或用存放结果的继电器开始新的网络
 
@@ -129,6 +153,9 @@ t-count-circuits-branch-off-in-the-flow-of-964e44e4 = `{ $initial }` 的流程�
 
 # counter `C{number}`
 t-counter-c-number-299c8851 = 计数器 `C{ $number }`
+
+# counts here
+t-counts-here-fdc6de39 = 在此处计数
 
 # `D{n}` becomes H{value} here
 t-d-n-becomes-h-value-here-4ed8fc96 = `D{ $n }` 在此处变为 H{ $value }
@@ -163,8 +190,20 @@ t-delete-this-name-or-put-the-label-of-03df7122 = 删除此 { $name }，或在�
 # delete this {name}, or start the second block with LD
 t-delete-this-name-or-start-the-second-block-344a00a2 = 删除此 { $name }，或用 LD 开始第二个回路块
 
+# delete this NEXT, or put FOR where the loop starts
+t-delete-this-next-or-put-for-where-the-e5c00b57 = 删除此 NEXT，或在循环开始处加 FOR
+
+# `{device}` counts here
+t-device-counts-here-fbf7a7e5 = `{ $device }` 在此处计数
+
 # `{device}` does not count an input of {model}
 t-device-does-not-count-an-input-of-model-3118cf83 = `{ $device }` 在 { $model } 上没有可以计数的输入
+
+# `{device}` driven here
+t-device-driven-here-cf15eb13 = `{ $device }` 在此处驱动
+
+# `{device}` has a meaning on {names}: `rungc explain {device}`
+t-device-has-a-meaning-on-names-rungc-explain-39d7540a = `{ $device }` 在 { $names } 上有含义：`rungc explain { $device }`
 
 # `{device}` is both jumped to and called
 t-device-is-both-jumped-to-and-called-da39efa8 = `{ $device }` 既被跳转又被调用
@@ -178,26 +217,65 @@ t-device-is-driven-in-branches-that-run-at-c6a5942d = `{ $device }` 在同时执
 # `{device}` is not always set in the first scan, at whose end {model} fixes the protocol of {self}
 t-device-is-not-always-set-in-the-first-b033dba4 = { $model } 在第一次扫描结束时确定 { $self } 的协议，而 `{ $device }` 在第一次扫描中不一定已设定
 
+# `{device}` is not on {variant}
+t-device-is-not-on-variant-34ca57d8 = { $variant } 上没有 `{ $device }`
+
+# `{device}` is read here
+t-device-is-read-here-75593743 = `{ $device }` 在此处读取
+
+# `{device}` is updated only in scans that run {name}
+t-device-is-updated-only-in-scans-that-run-0014842c = `{ $device }` 只在执行{ $name }的扫描中更新
+
+# `{device}` is written here
+t-device-is-written-here-b4402154 = `{ $device }` 在此处写入
+
+# `{device}` measures here
+t-device-measures-here-e84ab6b6 = `{ $device }` 在此处计时
+
 # `{device}` never runs: {why}
 t-device-never-runs-why-d661ef2d = `{ $device }` 从不执行：{ $why }
 
 # `{device}` of {self} is set to two values
 t-device-of-self-is-set-to-two-values-7b0f8b35 = { $self } 的 `{ $device }` 设为两个不同的值
 
+# `{device}` of {title} cannot give the direction of pulses
+t-device-of-title-cannot-give-the-direction-of-168f2b73 = { $title } 的 `{ $device }` 不能给出脉冲的方向
+
+# `{device}` read here
+t-device-read-here-0730e635 = `{ $device }` 在此处读取
+
+# `{device}` set here
+t-device-set-here-d5eb0b43 = `{ $device }` 在此处置位
+
 # do the work of the inner loops in one loop
 t-do-the-work-of-the-inner-loops-in-5a3c005e = 把内层循环的工作放在一个循环中完成
+
+# drive it in the main program
+t-drive-it-in-the-main-program-c948d83d = 在主程序中驱动它
+
+# drive it in the main program, or call the subroutine in every scan
+t-drive-it-in-the-main-program-or-call-ee30c382 = 在主程序中驱动它，或在每次扫描中调用该子程序
 
 # driven at the same time as this one
 t-driven-at-the-same-time-as-this-one-200cc718 = 与另一条指令同时驱动
 
+# driven here
+t-driven-here-0f80a7f7 = 在此处驱动
+
 # … driven here …
 t-driven-here-87b51717 = { "." }..在此处驱动...
+
+# driven here too
+t-driven-here-too-f74842c1 = 此处也驱动
 
 # driven in one branch …
 t-driven-in-one-branch-faa97216 = 在一个分支中驱动...
 
 # end it with {end}
 t-end-it-with-end-0efc77fc = 用 { $end } 结束它
+
+# end the loop with NEXT
+t-end-the-loop-with-next-8b932cd8 = 用 NEXT 结束循环
 
 # end the main program with FEND and put routines after it
 t-end-the-main-program-with-fend-and-put-cd0fb6d5 = 用 FEND 结束主程序，把子程序和中断程序放在其后
@@ -223,14 +301,41 @@ t-ends-n-level-28a7871b = 在此处结束 N{ $level }...
 # ends the {outside} …
 t-ends-the-outside-ad21c75b = { $outside }在此处结束...
 
+# `{family}` stands for all PLCs of the family
+t-family-stands-for-all-plcs-of-the-family-9ff03586 = `{ $family }` 代表该系列的所有 PLC
+
 # fast inputs and outputs take {asked} units of hardware, {model} has {total}
 t-fast-inputs-and-outputs-take-asked-units-of-560b9841 = 快速输入和输出占用 { $asked } 个单位的硬件资源，{ $model } 只有 { $total } 个
 
-# FEND inside a {name}
-t-fend-inside-a-name-afe53192 = FEND 位于{ $name }之中
+# FEND inside {one}
+t-fend-inside-one-4d281b24 = FEND 位于{ $one }之内
+
+# {fine} continue by themselves and keep their value until RST, too, but count 1 ms: convert a preset given in {unit_ms} ms units
+t-fine-continue-by-themselves-and-keep-their-value-e6f62ddf = { $fine } 也能自行继续计时，并把当前值保持到 RST，但以 1 ms 为单位计时：须换算以 { $unit_ms } ms 为单位的设定值
+
+# `{first}` and 1 other device are driven and never read
+t-first-and-1-other-device-are-driven-and-88f21dce = `{ $first }` 和另外 1 个软元件被驱动但从未读取
+
+# `{first}` and 1 other device are read, but nothing drives them
+t-first-and-1-other-device-are-read-but-27bebab6 = 读取了 `{ $first }` 和另外 1 个软元件，但没有任何指令驱动它们
+
+# `{first}` and 1 other device are read, but nothing writes them
+t-first-and-1-other-device-are-read-but-ed7c93e5 = 读取了 `{ $first }` 和另外 1 个软元件，但没有任何指令写入它们
 
 # `{first}` and {n} more registers are reserved for the system of {title}
 t-first-and-n-more-registers-are-reserved-for-b7e9265f = `{ $first }` 和另外 { $n } 个寄存器保留给 { $title } 的系统使用
+
+# `{first}` and {n} more special devices have no meaning on {model_name}
+t-first-and-n-more-special-devices-have-no-1472a1d9 = `{ $first }` 和另外 { $n } 个特殊软元件在 { $model_name } 上没有意义
+
+# `{first}` and {n} other devices are driven and never read
+t-first-and-n-other-devices-are-driven-and-2c1f24a6 = `{ $first }` 和另外 { $n } 个软元件被驱动但从未读取
+
+# `{first}` and {n} other devices are read, but nothing writes them
+t-first-and-n-other-devices-are-read-but-388036ad = 读取了 `{ $first }` 和另外 { $n } 个软元件，但没有任何指令写入它们
+
+# `{first}` and {n} other devices are read, but nothing drives them
+t-first-and-n-other-devices-are-read-but-d078443e = 读取了 `{ $first }` 和另外 { $n } 个软元件，但没有任何指令驱动它们
 
 # first defined here
 t-first-defined-here-7c46946a = 先在此处定义
@@ -238,20 +343,50 @@ t-first-defined-here-7c46946a = 先在此处定义
 # first driven here …
 t-first-driven-here-436b4f45 = 先在此处驱动...
 
+# `{first}` has no meaning on {model_name}
+t-first-has-no-meaning-on-model-name-5c799e69 = `{ $first }` 在 { $model_name } 上没有意义
+
 # `{first}` is a register of the network on a station of CANlink
 t-first-is-a-register-of-the-network-on-a0aff718 = `{ $first }` 在 CANlink 站中是通信网络的寄存器
+
+# `{first}` is driven and never read
+t-first-is-driven-and-never-read-03c1d482 = `{ $first }` 被驱动但从未读取
+
+# `{first}` is read, but nothing drives it
+t-first-is-read-but-nothing-drives-it-8646e035 = 读取了 `{ $first }`，但没有任何指令驱动它
+
+# `{first}` is read, but nothing writes it
+t-first-is-read-but-nothing-writes-it-3526bb56 = 读取了 `{ $first }`，但没有任何指令写入它
 
 # `{first}` is reserved for the system of {title}
 t-first-is-reserved-for-the-system-of-title-573f0829 = `{ $first }` 保留给 { $title } 的系统使用
 
+# `{first}` is set and never reset
+t-first-is-set-and-never-reset-d5e612a9 = `{ $first }` 被置位后从不复位
+
+# `{first}` reaches its preset once and is never reset
+t-first-reaches-its-preset-once-and-is-never-fb2b4778 = `{ $first }` 到达一次设定值后从不复位
+
 # first starts here
 t-first-starts-here-84bed304 = 先在此处开始
+
+# {first} to {last}
+t-first-to-last-65d83c5c = { $first }～{ $last }
+
+# `{first}` to `{run}`
+t-first-to-run-eacc3eb7 = `{ $first }`～`{ $run }`
 
 # `{first}` with an index may be `{near}`, which sets up a serial port
 t-first-with-an-index-may-be-near-which-1ac97a3b = 带变址的 `{ $first }` 可能是用于设定串口的 `{ $near }`
 
 # first written here …
 t-first-written-here-a9139370 = 先在此处写入...
+
+# {free} continue by themselves, but count 100 ms: convert a preset given in {unit_ms} ms units{fine}
+t-free-continue-by-themselves-but-count-100-ms-90f1c985 = { $free } 自行继续计时，但以 100 ms 为单位：须换算以 { $unit_ms } ms 为单位的设定值{ $fine }
+
+# {free} continue by themselves in scans that do not run their coils
+t-free-continue-by-themselves-in-scans-that-do-0f3026f2 = 在不执行其线圈的扫描中，{ $free } 自行继续计时
 
 # `{from}` branches into {transitions} states, the PLC follows {MAX_BRANCH}
 t-from-branches-into-transitions-states-the-plc-follows-de0449e0 = `{ $from }` 分支到 { $transitions } 个状态，PLC 最多执行 { $MAX_BRANCH } 个
@@ -283,6 +418,9 @@ t-if-this-sets-up-the-port-name-the-223d0043 = 如果此处设定串口，直接
 # `{index}` counts the words of `{device}`, not counters
 t-index-counts-the-words-of-device-not-counters-204a81da = `{ $index }` 按 `{ $device }` 的字计算，而不是按计数器计算
 
+# {inner} is not allowed inside {outer}
+t-inner-is-not-allowed-inside-outer-9ddf0e89 = { $outer }之内不允许有{ $inner }
+
 # `{input}` serves both an interrupt and pulse catch
 t-input-serves-both-an-interrupt-and-pulse-catch-54a93da1 = `{ $input }` 既用于中断，又用于脉冲捕捉
 
@@ -295,11 +433,17 @@ t-input-serves-both-other-and-counter-c-number-452fbef1 = `{ $input }` 有两种
 # … inside this loop
 t-inside-this-loop-15b9986f = { "." }..位于此循环内
 
+# `{inst}` cannot be compiled: {what}
+t-inst-cannot-be-compiled-what-7457b378 = `{ $inst }` 不能编译：{ $what }
+
 # `{instr}` has no contact to continue
 t-instr-has-no-contact-to-continue-863ae148 = `{ $instr }` 前没有可以连接的触点
 
 # instructions after END never run
 t-instructions-after-end-never-run-f16ea804 = END 之后的指令从不执行
+
+# interrupt routine
+t-interrupt-routine-3ade60f0 = 中断程序
 
 # interrupt routine `{device}` does not exist
 t-interrupt-routine-device-does-not-exist-96446abd = 中断程序 `{ $device }` 不存在
@@ -313,11 +457,20 @@ t-is-inside-this-outside-980fad46 = 位于此{ $outside }之中
 # … is lost here
 t-is-lost-here-0a65999d = { "." }..在此处丢失
 
+# it can be compiled for: {models}
+t-it-can-be-compiled-for-models-358c6129 = 可编译的机型：{ $models }
+
 # it works if {when}
 t-it-works-if-when-604a80af = 满足以下条件时有效：{ $when }
 
+# its last one is {last}; an extension module has others
+t-its-last-one-is-last-an-extension-module-dae6fd75 = 最后一个是 { $last }；其余的由扩展模块提供
+
 # its last one is {last}
 t-its-last-one-is-last-c9064fef = 最后一个是 { $last }
+
+# its pulse outputs are Y000 to {last}
+t-its-pulse-outputs-are-y000-to-last-19de981e = 脉冲输出为 Y000～{ $last }
 
 # its pulses are caught here …
 t-its-pulses-are-caught-here-c9a87cd5 = 在此处捕捉其脉冲...
@@ -352,8 +505,17 @@ t-leave-the-output-to-mnemonic-or-give-the-847e8cd0 = 把此输出留给 `{ $mne
 # let the edge SET a relay that drives it, and RST the relay when it has ended
 t-let-the-edge-set-a-relay-that-drives-4c4eac2a = 让边沿用 SET 置位一个继电器来驱动它，结束时用 RST 复位该继电器
 
+# loop
+t-loop-ddef486b = 循环
+
 # loops nest {max} deep on {model}
 t-loops-nest-max-deep-on-model-97f9fce0 = { $model } 的循环最多嵌套 { $max } 层
+
+# `{lost}`{named} is to keep its value over power-off, but is not latched on {model}
+t-lost-named-is-to-keep-its-value-over-6bb22195 = `{ $lost }`{ $named } 应在停电后保持其值，但它在 { $model } 上不是停电保持软元件
+
+# `{lower}` holds 16 bits: use the 16-bit form of the instruction
+t-lower-holds-16-bits-use-the-16-bit-7a193328 = `{ $lower }` 为 16 位：使用指令的 16 位形式
 
 # `M{mask}`, which is on at power-on, forbids it
 t-m-mask-which-is-on-at-power-on-24bd68f8 = 上电时为 ON 的 `M{ $mask }` 禁止它执行
@@ -361,8 +523,23 @@ t-m-mask-which-is-on-at-power-on-24bd68f8 = 上电时为 ON 的 `M{ $mask }` 禁
 # master
 t-master-ca8dbf33 = 主站
 
+# master control zone
+t-master-control-zone-c1e5d068 = 主控区
+
 # may take effect only after the next change from STOP to RUN
 t-may-take-effect-only-after-the-next-change-19433602 = 可能要到下次从 STOP 切换到 RUN 后才生效
+
+# measures here
+t-measures-here-345d0c3a = 在此处计时
+
+# measures incorrectly if not every scan does
+t-measures-incorrectly-if-not-every-scan-does-ba3b8a87 = 如果不是每次扫描都执行，则计时不准
+
+# {memory_steps} steps are used
+t-memory-steps-steps-are-used-03e38022 = 按 { $memory_steps } 步处理
+
+# {message}, and {n} more
+t-message-and-n-more-7de7b8f2 = { $message }，另有 { $n } 个
 
 # `{mnemonic}` always fails with `{kind}`
 t-mnemonic-always-fails-with-kind-2c0bf39d = `{ $mnemonic }` 使用 `{ $kind }` 总是失败
@@ -403,6 +580,9 @@ t-mnemonic-works-on-name-which-has-no-protocol-c01eef5b = `{ $mnemonic }` 使用
 # `{mnemonic}` works on {name}, which is a {protocol}
 t-mnemonic-works-on-name-which-is-a-protocol-ee536333 = `{ $mnemonic }` 使用 { $name }，而该端口设为「{ $protocol }」
 
+# `{mnemonic}` writes `{device}`, which the system maintains
+t-mnemonic-writes-device-which-the-system-maintains-0def55b6 = `{ $mnemonic }` 写入由系统维护的 `{ $device }`
+
 # `{mnemonic}` writes one half of the 32-bit value in `{first}` and `{last}`
 t-mnemonic-writes-one-half-of-the-32-bit-b340e8ea = `{ $mnemonic }` 写入了 `{ $first }` 和 `{ $last }` 中 32 位数据的一半
 
@@ -432,6 +612,9 @@ t-n-level-is-not-deeper-than-the-zone-e9bfa42d = N{ $level } 的嵌套级不大�
 
 # {n} times
 t-n-times-5bf6f189 = { $n } 次
+
+# name a latched device in `[plcopen]` of rungc.toml, or add this one to `[latched]`
+t-name-a-latched-device-in-plcopen-of-rungc-3cbb8b82 = 在 rungc.toml 的 `[plcopen]` 中写出停电保持的软元件，或把此软元件加入 `[latched]`
 
 # `{name}` ends no {kind}
 t-name-ends-no-kind-7fb067b3 = `{ $name }` 没有对应的{ $kind }
@@ -478,8 +661,14 @@ t-no-chain-of-contacts-has-started-03b78aa8 = 前面没有从母线开始的触�
 # no comparison of a high-speed counter names it
 t-no-comparison-of-a-high-speed-counter-names-e13cdd7c = 没有以它为目标的高速计数器比较指令
 
+# no FOR is open here
+t-no-for-is-open-here-cf2f1ab9 = 此处没有尚未结束的 FOR
+
 # no frame can be for this station
 t-no-frame-can-be-for-this-station-f85ba5cf = 任何帧都不可能发给此站
+
+# no label leads here, and the code before it has ended
+t-no-label-leads-here-and-the-code-before-baecbb4c = 没有标号通向此处，而它前面的程序已经结束
 
 # no MC N{level} is open here
 t-no-mc-n-level-is-open-here-4d9d3f8e = 此处没有尚未结束的 MC N{ $level }
@@ -493,11 +682,26 @@ t-no-module-has-the-number-unit-31b500b0 = 没有编号为 { $unit } 的模块
 # no MPP closes this branch
 t-no-mpp-closes-this-branch-c538599e = 此分支没有用 MPP 结束
 
+# no NEXT closes this FOR
+t-no-next-closes-this-for-c16fe72f = 此 FOR 缺少对应的 NEXT
+
 # no result is stored here
 t-no-result-is-stored-here-c5349dda = 此处没有存入的运算结果
 
+# no RET closes this step ladder
+t-no-ret-closes-this-step-ladder-7a8fa5ac = 此步进梯形图缺少 RET
+
+# no routine has started
+t-no-routine-has-started-b11bc95f = 没有已开始的子程序或中断程序
+
+# no step ladder is open here
+t-no-step-ladder-is-open-here-a7a90f26 = 此处没有尚未结束的步进梯形图
+
 # none is left for this
 t-none-is-left-for-this-27d1ec9f = 已没有资源可供此处使用
+
+# not cleared when this state starts
+t-not-cleared-when-this-state-starts-bfda181c = 此状态开始时没有清零
 
 # not run, up to `{last}`
 t-not-run-up-to-last-5e764009 = 从此处到 `{ $last }` 都不执行
@@ -547,6 +751,12 @@ t-one-branch-too-many-618674a2 = 多出的一个分支
 # one call too many
 t-one-call-too-many-046bce56 = 多出的一次调用
 
+# {one} has no effect in a compiled program: {why}
+t-one-has-no-effect-in-a-compiled-program-55494af8 = { $one } 在编译后的程序中不起作用：{ $why }
+
+# {one} never changes in a compiled program: {why}
+t-one-never-changes-in-a-compiled-program-why-438f0dd9 = { $one } 在编译后的程序中从不变化：{ $why }
+
 # one too many
 t-one-too-many-671c2b84 = 多出的一个
 
@@ -568,8 +778,14 @@ t-p63-is-the-end-of-the-program-f05f4be4 = P63 是程序的结尾
 # `P63` must not be defined
 t-p63-must-not-be-defined-79f37b7a = 不得定义 `P63`
 
+# programs write it while COM{port} is {title}
+t-programs-write-it-while-com-port-is-title-bee7213b = COM{ $port } 为 { $title } 时，由程序写入它
+
 # `{pulse}` runs once each time its contacts close
 t-pulse-runs-once-each-time-its-contacts-close-d02c7d28 = 触点每次接通时，`{ $pulse }` 只执行一次
+
+# put a label before it, or move it before FEND
+t-put-a-label-before-it-or-move-it-a8a4b68a = 在它前面加标号，或把它移到 FEND 之前
 
 # put EI at the start of the program
 t-put-ei-at-the-start-of-the-program-8781c678 = 在程序开头加 EI
@@ -582,6 +798,9 @@ t-put-ld-m8000-before-it-to-run-it-7103ce09 = 需要始终执行时，在前面�
 
 # put MPP before the last coil of the branch, or delete this MPS
 t-put-mpp-before-the-last-coil-of-the-b9380d74 = 在分支的最后一个线圈前加 MPP，或删除此 MPS
+
+# put RET after the last state
+t-put-ret-after-the-last-state-e683f56d = 在最后一个状态之后加 RET
 
 # put the {end} before this
 t-put-the-end-before-this-b7d1721d = 把 { $end } 放在此处之前
@@ -597,6 +816,12 @@ t-put-the-whole-loop-between-proc-and-pend-85ee823e = 把整个循环放在 PROC
 
 # read here …
 t-read-here-e7233285 = 在此处读取...
+
+# read here
+t-read-here-fb7c38f9 = 在此处读取
+
+# read with `{lower}` as a 32-bit value
+t-read-with-lower-as-a-32-bit-value-ff8c094f = 与 `{ $lower }` 一起作为 32 位数据读取
 
 # reads as 0
 t-reads-as-0-f16e9ee2 = 读出值为 0
@@ -640,6 +865,9 @@ t-self-works-through-a-modbus-table-which-has-ae4fe7b0 = { $self } 按 Modbus �
 # serve by Modbus TCP with `--modbus-tcp 502` or `modbus-tcp = 502` in `[serve]` of rungc.toml
 t-serve-by-modbus-tcp-with-modbus-tcp-502-43387490 = 用 `--modbus-tcp 502`，或 rungc.toml 的 `[serve]` 中的 `modbus-tcp = 502`，提供 Modbus TCP 服务
 
+# set here
+t-set-here-29d6cc7f = 在此处置位
+
 # set it under `LD M8002` or `LD M8000`
 t-set-it-under-ld-m8002-or-ld-m8000-11b20103 = 用 `LD M8002` 或 `LD M8000` 驱动此设定
 
@@ -676,11 +904,23 @@ t-starts-and-stops-in-the-next-scan-e38c79ee = 启动后在下一次扫描中停
 # starts before FEND
 t-starts-before-fend-962ed20e = 在 FEND 之前开始
 
+# starts here and never ends
+t-starts-here-and-never-ends-c23ad401 = 从这里开始，但没有结束
+
+# step ladder
+t-step-ladder-1f505631 = 步进梯形图
+
 # stored here
 t-stored-here-f2132b4c = 在此存入
 
+# subroutine
+t-subroutine-8b177013 = 子程序
+
 # swap the operands
 t-swap-the-operands-d24680a5 = 交换两个操作数
+
+# … that starts here
+t-that-starts-here-a089b129 = { "." }..它从这里开始
 
 # the 32-bit values at `{device}` and `{next}` share `{next}`
 t-the-32-bit-values-at-device-and-next-f40d9a84 = `{ $device }` 和 `{ $next }` 处的 32 位数据共用 `{ $next }`
@@ -721,11 +961,17 @@ t-the-last-of-these-branches-58611f1e = 这些分支中的最后一个
 # the last return to it
 t-the-last-return-to-it-3f452224 = 最后一次返回此分支
 
+# the main program ends here …
+t-the-main-program-ends-here-1030303d = 主程序在此处结束...
+
 # the manuals do not print the frames of CANlink
 t-the-manuals-do-not-print-the-frames-of-77a5303c = 手册没有给出 CANlink 的帧格式
 
 # the manuals do not print the frames of this link
 t-the-manuals-do-not-print-the-frames-of-c3aa7692 = 手册没有给出此链接的帧格式
+
+# the model's own are used
+t-the-model-s-own-are-used-e43cdbe2 = 使用机型自身的停电保持范围
 
 # the module ignores it
 t-the-module-ignores-it-5d6d0928 = 模块忽略此写入
@@ -736,11 +982,23 @@ t-the-next-block-starts-here-28082809 = 下一个回路块从这里开始
 # the ninth block
 t-the-ninth-block-6faf5380 = 第九个回路块
 
+# the others are latched; `{wrong}` is the first that is not
+t-the-others-are-latched-wrong-is-the-first-3eb836a3 = 其余的为停电保持；第一个不能保持的是 `{ $wrong }`
+
 # the outermost loop
 t-the-outermost-loop-da9ded62 = 最外层的循环
 
 # the {outside} ends inside the {within}
 t-the-outside-ends-inside-the-within-f72cc2cb = { $outside }在{ $within }之内结束
+
+# the parameters latch {range}, but {name} cannot latch all of them
+t-the-parameters-latch-range-but-name-cannot-latch-dd30a69e = 参数把 { $range } 设为停电保持，但 { $name } 不能保持其中的全部
+
+# the parameters latch {range}, but the latched devices of {name} are fixed
+t-the-parameters-latch-range-but-the-latched-devices-3baf5c9b = 参数把 { $range } 设为停电保持，但 { $name } 的停电保持软元件是固定的
+
+# the parameters set a memory of {steps} steps, but {model} has {memory_steps}
+t-the-parameters-set-a-memory-of-steps-steps-02c76d78 = 参数设定的程序存储器为 { $steps } 步，但 { $model } 只有 { $memory_steps } 步
 
 # the port is set up here
 t-the-port-is-set-up-here-1ee04a68 = 端口在此处设定
@@ -753,6 +1011,9 @@ t-the-program-does-not-end-with-end-b92e8ffa = 程序没有以 END 结束
 
 # the program is empty
 t-the-program-is-empty-3e56cc99 = 程序为空
+
+# the project says RETAIN
+t-the-project-says-retain-a0c38014 = 工程中声明为 RETAIN
 
 # the result of this block is lost
 t-the-result-of-this-block-is-lost-ce386965 = 此回路块的运算结果丢失
@@ -781,8 +1042,14 @@ t-the-twelfth-mps-8b589618 = 第十二个 MPS
 # there is no block before it
 t-there-is-no-block-before-it-af368b47 = 前面没有回路块
 
+# there is no STL before it
+t-there-is-no-stl-before-it-ed230953 = 它前面没有 STL
+
 # there is nothing to end
 t-there-is-nothing-to-end-de1137fa = 没有可以结束的内容
+
+# there is nothing to repeat
+t-there-is-nothing-to-repeat-0d2630ba = 没有可以循环的内容
 
 # there is only one block before it
 t-there-is-only-one-block-before-it-180a734a = 前面只有一个回路块
@@ -814,6 +1081,24 @@ t-this-interrupt-routine-never-runs-there-is-no-6aec06cd = 此中断程序从不
 # this is `{device}` and `{next}`
 t-this-is-device-and-next-ba28b727 = 此数据占用 `{ $device }` 和 `{ $next }`
 
+# this is fine if an operator panel or another program resets it; then name it in `[hmi] writes` of rungc.toml
+t-this-is-fine-if-an-operator-panel-or-4c9c8a17 = 如果由人机界面或其他程序复位，则没有问题；此时在 rungc.toml 的 `[hmi] writes` 中写明它
+
+# this is fine if an operator panel or another program reads it; then name it in `[hmi] reads` of rungc.toml
+t-this-is-fine-if-an-operator-panel-or-64dd85dd = 如果由人机界面或其他程序读取，则没有问题；此时在 rungc.toml 的 `[hmi] reads` 中写明它
+
+# this is fine if an operator panel or another program reads them; then name them in `[hmi] reads` of rungc.toml
+t-this-is-fine-if-an-operator-panel-or-89b0c3bd = 如果由人机界面或其他程序读取，则没有问题；此时在 rungc.toml 的 `[hmi] reads` 中写明它们
+
+# this is fine if an operator panel or another program writes it; then name it in `[hmi] writes` of rungc.toml
+t-this-is-fine-if-an-operator-panel-or-8d087723 = 如果由人机界面或其他程序写入，则没有问题；此时在 rungc.toml 的 `[hmi] writes` 中写明它
+
+# this is fine if an operator panel or another program resets them; then name them in `[hmi] writes` of rungc.toml
+t-this-is-fine-if-an-operator-panel-or-9e2eb377 = 如果由人机界面或其他程序复位，则没有问题；此时在 rungc.toml 的 `[hmi] writes` 中写明它们
+
+# this is fine if an operator panel or another program writes them; then name them in `[hmi] writes` of rungc.toml
+t-this-is-fine-if-an-operator-panel-or-a1d6eae3 = 如果由人机界面或其他程序写入，则没有问题；此时在 rungc.toml 的 `[hmi] writes` 中写明它们
+
 # this is `{next}` and the next register
 t-this-is-next-and-the-next-register-cc95b9b8 = 此数据占用 `{ $next }` 和下一个寄存器
 
@@ -838,6 +1123,9 @@ t-this-mpp-closed-the-branch-5e5689af = 此 MPP 结束了分支
 # this {name} has no {end}
 t-this-name-has-no-end-c14ba330 = 此{ $name }缺少 { $end }
 
+# this never runs
+t-this-never-runs-c811005b = 此处从不执行
+
 # … this one
 t-this-one-62077c3d = { "." }..这是外层区间
 
@@ -855,6 +1143,15 @@ t-this-zone-is-inside-dd37af99 = 此区间位于另一区间之内...
 
 # timer interrupt I{number} has two periods
 t-timer-interrupt-i-number-has-two-periods-37866ae9 = 定时中断 I{ $number } 有两个周期
+
+# `{timer}` is driven in `{state}` and in `{next}`, which follows it
+t-timer-is-driven-in-state-and-in-next-60c84e8f = `{ $timer }` 既在 `{ $state }` 中驱动，又在其后的 `{ $next }` 中驱动
+
+# ; {timers} do so too: they count 1 ms and keep their value until RST
+t-timers-do-so-too-they-count-1-ms-61ae00a9 = ；{ $timers } 也是如此：以 1 ms 为单位计时，并把当前值保持到 RST
+
+# {title} sends no pulses at `{device}`
+t-title-sends-no-pulses-at-device-fa01987a = { $title } 不能在 `{ $device }` 上发出脉冲
 
 # … to here
 t-to-here-36f7735e = { "." }..跳到此处
@@ -895,8 +1192,17 @@ t-use-a-separate-input-55fafafc = 另用一个输入
 # use a separate input, or set a relay in the interrupt routine
 t-use-a-separate-input-or-set-a-relay-11cfd7e2 = 另用一个输入，或在中断程序中置位一个继电器
 
+# use an ordinary device instead of `{device}` if it is a flag or value of the program's own
+t-use-an-ordinary-device-instead-of-device-if-4cc85eeb = 如果 `{ $device }` 是程序自用的标志或数据，改用普通软元件
+
+# use an output from {first} on
+t-use-an-output-from-first-on-78ae6109 = 使用从 { $first } 开始的输出
+
 # use another number for this label
 t-use-another-number-for-this-label-946c35e3 = 此标号改用其他编号
+
+# use another timer in one of the two states
+t-use-another-timer-in-one-of-the-two-b25c118b = 两个状态之一改用其他定时器
 
 # use at most {max} with a word
 t-use-at-most-max-with-a-word-04ede7d1 = 使用字元件时最大取 { $max }
@@ -927,6 +1233,12 @@ t-use-separate-registers-for-each-value-12148c90 = 每个数据使用单独的�
 
 # used here …
 t-used-here-c53f854a = 在此处使用...
+
+# {variant} does not have `{device}`
+t-variant-does-not-have-device-c2c551de = { $variant } 没有 `{ $device }`
+
+# {variant} does not have `{inst}`
+t-variant-does-not-have-inst-5afcbc24 = { $variant } 没有 `{ $inst }`
 
 # {wanted} is wanted here …
 t-wanted-is-wanted-here-c485b2fb = 此处要求「{ $wanted }」...
@@ -967,14 +1279,14 @@ t-write-mpp-for-the-last-return-to-a-8f4f62d3 = 最后一次返回分支时，�
 # write MRD to return to a branch that continues
 t-write-mrd-to-return-to-a-branch-that-dee0fdbd = 返回还要继续的分支时，用 MRD
 
-# write {or} to `D{n}` in the first scan
-t-write-or-to-d-n-in-the-first-485836e7 = 在第一次扫描中把 { $or } 写入 `D{ $n }`
-
 # write the pulse form
 t-write-the-pulse-form-972982ec = 改为脉冲执行型
 
 # write the rows of the editor's table to rungc.toml, as `[[modbus]]`
 t-write-the-rows-of-the-editor-s-table-99010dbd = 把编程软件中表的各行以 `[[modbus]]` 写入 rungc.toml
+
+# write {values} to `D{n}` in the first scan
+t-write-values-to-d-n-in-the-first-6fa276e6 = 在第一次扫描中把 { $values } 写入 `D{ $n }`
 
 # `{writer}` writes `{first}` to `{last}`
 t-writer-writes-first-to-last-bb9441b5 = `{ $writer }` 写入 `{ $first }`～`{ $last }`
@@ -990,3 +1302,6 @@ t-written-here-fd4ccc26 = { "." }..在此处写入...
 
 # written here too
 t-written-here-too-60f4f8b0 = 此处也写入
+
+# written with `{lower}` as a 32-bit value
+t-written-with-lower-as-a-32-bit-value-12c477b4 = 与 `{ $lower }` 一起作为 32 位数据写入

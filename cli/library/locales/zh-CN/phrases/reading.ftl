@@ -235,6 +235,9 @@ t-remove-what-follows-end-56a0bbb0 = 删除 `END` 之后的内容
 # `rungc convert --to st -o FOLDER` writes its sources as text, `--to labels` its labels
 t-rungc-convert-to-st-o-folder-writes-its-1c2f07a3 = `rungc convert --to st -o FOLDER` 把其源程序写成文本，`--to labels` 写出其标签
 
+# separate its cells as in the other rows, or delete the row
+t-separate-its-cells-as-in-the-other-rows-1e72c1d9 = 像其他行那样分隔单元格，或删除此行
+
 # shorter than the parameters that precede a program
 t-shorter-than-the-parameters-that-precede-a-program-9e4fce32 = 比程序之前的参数还短
 
@@ -298,6 +301,9 @@ t-the-ladder-is-used-cc65bce5 = 使用梯形图
 # the longest program of the file
 t-the-longest-program-of-the-file-55556e5e = 文件中最长的程序
 
+# the only text is in the column of steps
+t-the-only-text-is-in-the-column-of-9012c489 = 只有步号一列中有文字
+
 # the program does not end with `END`, where a PLC stops reading
 t-the-program-does-not-end-with-end-where-6a0be9a8 = 程序没有以 `END` 结束，而 PLC 读到那里为止
 
@@ -330,6 +336,9 @@ t-this-is-not-the-program-memory-of-an-f2b8d9a3 = 这不是 FX 系列 PLC 的程
 
 # this program
 t-this-program-0627b665 = 此程序
+
+# this row has neither an instruction nor a statement
+t-this-row-has-neither-an-instruction-nor-a-3116f770 = 此行既没有指令也没有声明
 
 # this shows the language
 t-this-shows-the-language-57664a86 = 由此可知所用的语言
