@@ -2,8 +2,8 @@
 //!
 //! A language has a folder in `locales/`, with files in the format of [Project Fluent](https://projectfluent.org). A
 //! message in `codes/` has the identifier of a diagnostic code: its value is the title, and its attribute `text` the
-//! explanation. `phrases/` has what diagnostics say, and `report.ftl` what surrounds them. Above each translation, a comment repeats the English
-//! text that it is made from, so that a test finds those that no longer fit.
+//! explanation. `phrases/` has what diagnostics say, and `report.ftl` what surrounds them. Above each translation, a
+//! comment repeats the English text that it is made from, so that a test finds those that no longer fit.
 
 use fluent_bundle::concurrent::FluentBundle;
 use fluent_bundle::{FluentArgs, FluentResource, FluentValue};

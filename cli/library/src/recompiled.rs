@@ -41,8 +41,8 @@ pub fn declared(sources: &Sources) -> BTreeSet<Device> {
     stated_devices(sources, true)
 }
 
-/// Returns true if two programs have the same instructions, up to the numbers of temporaries and jumps and, of relays and
-/// registers, of labels for which the compiler chose the device.
+/// Returns true if two programs have the same instructions, up to the numbers of temporaries and jumps and, of relays
+/// and registers, of labels for which the compiler chose the device.
 pub fn has_same_list(sources: &Sources, one: &Program, other: &Program) -> bool {
     let stated = stated_devices(sources, false);
     lines(&one.instrs, &stated) == lines(&other.instrs, &stated)

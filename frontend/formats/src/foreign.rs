@@ -1,6 +1,6 @@
 //! Texts in other PLC languages, which are reported once instead of line by line.
 
-use rungc_syntax::{Diagnostic, Program, Source, SourceKind, Span, codes};
+use rungc_syntax::{Diagnostic, Program, Source, SourceKind, Span, codes, phrase};
 
 /// Number of lines of code that decide.
 const LINES: usize = 200;
@@ -21,24 +21,24 @@ pub(crate) fn detect(name: &str, text: &str) -> Option<(Program, Diagnostic)> {
     let (language, span) = language(text)?;
     let (what, help) = match language {
         Language::PlcopenXml => (
-            "a PLCopen XML project",
+            phrase!("this is a PLCopen XML project, not an FX instruction list"),
             "open it in its editor and export the list of the compiled program",
         ),
         Language::Xml => (
-            "an XML file",
+            phrase!("this is an XML file, not an FX instruction list"),
             "open it in the editor that wrote it and export the list of the compiled program",
         ),
         Language::List => (
-            "IEC 61131-3 instruction list",
+            phrase!("this is IEC 61131-3 instruction list, not an FX instruction list"),
             "an FX list names devices: `LD X000`, `ANI X001`, `OUT Y000`, `END`",
         ),
         Language::StructuredText => (
-            "structured text",
+            phrase!("this is structured text, not an FX instruction list"),
             "name the file `.st`, begin it with `PROGRAM Name` and end it with `END_PROGRAM`",
         ),
     };
     let diagnostic = codes::FOREIGN_LANGUAGE
-        .at(span, format!("this is {what}, not an FX instruction list"))
+        .at(span, what)
         .label("this shows the language")
         .help(help);
     let program = Program {

@@ -26,9 +26,10 @@ fn is_of_gx_developer(folder: &Path) -> bool {
 }
 
 /// All programs in a folder and, to this depth (1: in itself), below, in the order of their paths: instruction lists
-/// (`.il`), structured text (`.st`, or the folder of several files of one program), list exports (`.csv`), GX Developer projects (their folders), GX Works2 projects
-/// (`.gxw`), FXGP/WIN programs (`.pmw`), images of program memory (`.bin`) and PLCopen XML (`.xml`). Hidden folders,
-/// folders called `target`, links to folders and what is not a file, such as a pipe, are left out.
+/// (`.il`), structured text (`.st`, or the folder of several files of one program), list exports (`.csv`), GX Developer
+/// projects (their folders), GX Works2 projects (`.gxw`), FXGP/WIN programs (`.pmw`), images of program memory (`.bin`)
+/// and PLCopen XML (`.xml`). Hidden folders, folders called `target`, links to folders and what is not a file, such as
+/// a pipe, are left out.
 pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let entries = WalkDir::new(folder).max_depth(depth).sort_by_file_name();

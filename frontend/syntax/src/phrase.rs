@@ -1,4 +1,4 @@
-//! Texts for people that can be said in other languages.
+//! Human-readable texts that can be said in other languages.
 //!
 //! What a diagnostic says stands in English where the diagnostic is made, as with `format!`. A [`Phrase`] keeps the
 //! sentence as it stands there, which a translation is found by, and its arguments.
@@ -178,7 +178,7 @@ const fn is_at(text: &[u8], begin: usize, end: usize, name: &[u8]) -> bool {
     true
 }
 
-/// A text for people: a sentence in English, and the arguments that stand in it as `{name}`, each as `name` or
+/// A human-readable text: a sentence in English, and the arguments that stand in it as `{name}`, each as `name` or
 /// `name = value`. It may be said in another language, where the sentence is found by what is written here.
 ///
 /// ```
@@ -238,7 +238,9 @@ macro_rules! same_in_all_languages {
 }
 
 same_in_all_languages!(
-    str String smol_str::SmolStr Cow<'_, str> char u8 u16 u32 u64 usize i16 i32 i64 Device DeviceRun Index Instr Number OperandKind fmt::Arguments<'_>
+    str String smol_str::SmolStr fmt::Arguments<'_> Cow<'_, str>
+    char u8 u16 u32 u64 usize i16 i32 i64
+    Device DeviceRun Index Instr Number OperandKind
 );
 
 impl Default for Phrase {

@@ -31,7 +31,7 @@ pub fn message_at(text: &str, at: usize, of_reader: &str) -> (String, Option<Str
         .get(token.start as usize..token.end as usize)
         .unwrap_or_default();
     let (said, help) = message(of_reader);
-    // The reader points at the name of a heading, behind its brackets.
+    // The reader points at the name of a heading, after its brackets.
     let is_heading = text.get(..at).is_some_and(|before| before.ends_with("[["));
     if is_moment(token) {
         (MOMENT.to_string(), None)

@@ -2,9 +2,9 @@
 //!
 //! Each block begins with the same statements on a state and two memories: a state that a transition left goes off, and
 //! the block runs if its state is on, or was. What differs is the rest. So the runtime finds the blocks that run, and
-//! the rest of each is a case. It looks at the states once, before the first block; from there on it notes which of them
-//! transitions switch on. States that were left go off there, too, unless blocks read whether later ones are on. Blocks
-//! that change their neighbours' states in other ways are tested instead, one by one and in groups.
+//! the rest of each is a case. It looks at the states once, before the first block; from there on it notes which of
+//! them transitions switch on. States that were left go off there, too, unless blocks read whether later ones are on.
+//! Blocks that change their neighbours' states in other ways are tested instead, one by one and in groups.
 
 use crate::plan::{Node, Plan, statements};
 use crate::temps::Home;

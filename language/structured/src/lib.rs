@@ -327,8 +327,8 @@ fn unused(labels: &Labels, found: &mut Vec<rungc_syntax::Diagnostic>) {
     }
 }
 
-/// Names of labels as the comments of their devices. Where several programs have a label of one name, that of the program
-/// stands before it.
+/// Names of labels as the comments of their devices. Where several programs have a label of one name, that of the
+/// program stands before it.
 fn comments<'l>(
     global: &Labels,
     programs: impl Iterator<Item = (&'l str, &'l Rc<Labels>)>,

@@ -260,17 +260,7 @@ impl Kind {
                 .label("no closing `\"` on this line")
                 .help("put `\"` after the last character")
                 .fix(Fix::suggested("close the text").replace(Span::new(span.end, span.end), "\"")),
-            Kind::LookAlike(letter) => codes::LOOK_ALIKE
-                .at(
-                    span,
-                    format!(
-                        "`{letter}` is U+{:04X}, not a Latin letter",
-                        u32::from(letter)
-                    ),
-                )
-                .label("only looks like one")
-                .help(phrase!("type `{text}` with Latin letters", text))
-                .fix(Fix::certain(phrase!("write `{text}`", text)).replace(span, text)),
+            Kind::LookAlike(letter) => look_alike(span, letter, text),
             Kind::SpacedLabel | Kind::SpacedNumber => {
                 let joined: String = text.split_whitespace().collect();
                 let what = match self {
@@ -333,6 +323,20 @@ impl Kind {
             .label(label)
             .help(help)
     }
+}
+
+/// The error for a letter of another script.
+fn look_alike(span: Span, letter: char, text: &str) -> Diagnostic {
+    let message = phrase!(
+        "`{letter}` is U+{code}, not a Latin letter",
+        letter,
+        code = format!("{:04X}", u32::from(letter))
+    );
+    codes::LOOK_ALIKE
+        .at(span, message)
+        .label("only looks like one")
+        .help(phrase!("type `{text}` with Latin letters", text))
+        .fix(Fix::certain(phrase!("write `{text}`", text)).replace(span, text))
 }
 
 fn line(span: Span, text: &str) -> Diagnostic {

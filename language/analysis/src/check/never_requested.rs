@@ -147,8 +147,8 @@ fn excluded(code: &Code, input: u32, kind: EdgeKind) -> Option<Reason> {
         return None;
     }
     let edge = match kind {
-        EdgeKind::Rising => "rising",
-        EdgeKind::Falling => "falling",
+        EdgeKind::Rising => phrase!("rising"),
+        EdgeKind::Falling => phrase!("falling"),
     };
     let input = DeviceClass::X.number(input);
     let n = register.number();

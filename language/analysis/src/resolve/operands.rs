@@ -405,7 +405,15 @@ impl Checker {
         let end = self.end_of_run(class, device.number)?;
         let last = device.number.saturating_add(count.max(1) - 1);
         (last > end).then(|| {
-            let message = phrase!("operand {param} of `{mnemonic}` uses {count} devices starting at `{device}`, but `{end}` is the last one", param = param.name, mnemonic = matched.instr.mnemonic, count, device, end = class.number(end));
+            let message = phrase!(
+                "operand {param} of `{mnemonic}` uses {count} devices starting at `{device}`, but `{end}` is the last \
+                 one",
+                param = param.name,
+                mnemonic = matched.instr.mnemonic,
+                count,
+                device,
+                end = class.number(end)
+            );
             let highest = (end + 1)
                 .checked_sub(count)
                 .and_then(|first| (self.end_of_run(class, first) == Some(end)).then_some(first));

@@ -37,16 +37,14 @@ pub(super) fn broken(
             let value = operand.kind.constant()?;
             (of != 0 && value % of != 0).then(|| no_multiple(operand, of))
         }
-        Rule::AtMost(other) => against(other, |v, bound| v > bound, "must not be greater than"),
-        Rule::AtLeast(other) => against(other, |v, bound| v < bound, "must not be smaller than"),
-        Rule::Below(other) => against(other, |v, bound| v >= bound, "must be smaller than"),
+        Rule::AtMost(other) => against(other, |v, bound| v > bound, Demand::AtMost),
+        Rule::AtLeast(other) => against(other, |v, bound| v < bound, Demand::AtLeast),
+        Rule::Below(other) => against(other, |v, bound| v >= bound, Demand::Below),
         Rule::EndsInZero => {
             let device = device_of(&operand.kind)?;
             let base = if device.class.is_octal() { 8 } else { 10 };
-            {
-                let message = phrase!("the number of `{device}` does not end in 0", device);
-                unaligned(operand, device, base, message)
-            }
+            let message = phrase!("the number of `{device}` does not end in 0", device);
+            unaligned(operand, device, base, message)
         }
         Rule::Aligned(of) => {
             let device = device_of(&operand.kind)?;
@@ -66,7 +64,7 @@ pub(super) fn broken(
         Rule::SameDigits(other) => {
             let other = operands.get(other)?;
             let differ = digits(operand)? != digits(other)?;
-            differ.then(|| disagree(operand, other, "must have as many digits as"))
+            differ.then(|| disagree(operand, other, Demand::SameDigits))
         }
         Rule::GroupLike(other) => unlike_group(operand, operands.get(other)?),
         Rule::GroupAtMost(other, max) => too_many_groups(operand, operands.get(other)?, max),
@@ -112,7 +110,7 @@ fn unsuited(operand: &Operand, demand: &'static str) -> Diagnostic {
 fn unlike_group(operand: &Operand, other: &Operand) -> Option<Diagnostic> {
     device_of(&operand.kind).and(device_of(&other.kind))?;
     let differ = digits(operand).is_some() != digits(other).is_some();
-    differ.then(|| disagree(operand, other, "does not match"))
+    differ.then(|| disagree(operand, other, Demand::Match))
 }
 
 /// A number of values is greater than `max`, and the other operand is a group of bits.
@@ -131,20 +129,15 @@ fn too_many_groups(operand: &Operand, other: &Operand, max: i64) -> Option<Diagn
 fn before(operand: &Operand, other: &Operand) -> Option<Diagnostic> {
     let (last, first) = (unindexed(&operand.kind)?, unindexed(&other.kind)?);
     let apart = is_special(first.class, first.number) != is_special(last.class, last.number);
-    (first.class == last.class && (apart || last.number < first.number)).then(|| {
-        disagree(
-            operand,
-            other,
-            "must be in the same range as, and not before,",
-        )
-    })
+    (first.class == last.class && (apart || last.number < first.number))
+        .then(|| disagree(operand, other, Demand::SameRange))
 }
 
 /// Two operands are of different classes.
 fn unlike_class(operand: &Operand, other: &Operand) -> Option<Diagnostic> {
     let differ = Classes::of(&operand.kind) != Classes::of(&other.kind);
     (differ && !is_unreadable(other)).then(|| {
-        disagree(operand, other, "must be of the same class as")
+        disagree(operand, other, Demand::SameClass)
             .help("name the first and the last device of one class")
     })
 }
@@ -196,7 +189,7 @@ fn compare(
     operand: &Operand,
     other: &Operand,
     wrong: fn(i64, i64) -> bool,
-    demand: &str,
+    demand: Demand,
 ) -> Option<Diagnostic> {
     let (value, bound) = (operand.kind.constant()?, other.kind.constant()?);
     wrong(value, bound).then(|| disagree(operand, other, demand))
@@ -216,7 +209,7 @@ fn unaligned(operand: &Operand, device: Device, of: u32, message: Phrase) -> Opt
     Some(
         codes::NOT_THIS_NUMBER
             .at(operand.span, message)
-            .label(format!("e.g. {below}")),
+            .label(phrase!("e.g. {below}", below)),
     )
 }
 
@@ -241,12 +234,41 @@ fn narrow_counter(operand: &Operand) -> Diagnostic {
         .label("C200 and up in the 32-bit form")
 }
 
-fn disagree(operand: &Operand, other: &Operand, demand: &str) -> Diagnostic {
-    let message = format!(
-        "`{kind}` {demand} `{kind2}`",
-        kind = operand.kind,
-        kind2 = other.kind
-    );
+/// What an operand has to be in relation to another one.
+#[derive(Clone, Copy)]
+enum Demand {
+    AtMost,
+    AtLeast,
+    Below,
+    SameDigits,
+    Match,
+    SameRange,
+    SameClass,
+}
+
+fn disagree(operand: &Operand, other: &Operand, demand: Demand) -> Diagnostic {
+    let (one, another) = (&operand.kind, &other.kind);
+    let message = match demand {
+        Demand::AtMost => phrase!("`{one}` must not be greater than `{another}`", one, another),
+        Demand::AtLeast => phrase!("`{one}` must not be smaller than `{another}`", one, another),
+        Demand::Below => phrase!("`{one}` must be smaller than `{another}`", one, another),
+        Demand::SameDigits => phrase!(
+            "`{one}` must have as many digits as `{another}`",
+            one,
+            another
+        ),
+        Demand::Match => phrase!("`{one}` does not match `{another}`", one, another),
+        Demand::SameRange => phrase!(
+            "`{one}` must be in the same range as, and not before, `{another}`",
+            one,
+            another
+        ),
+        Demand::SameClass => phrase!(
+            "`{one}` must be of the same class as `{another}`",
+            one,
+            another
+        ),
+    };
     // The labels are read in the order of their places.
     let (here, there) = match other.span < operand.span {
         true => ("… conflicts with this", "this …"),

@@ -11,7 +11,7 @@ t-a-high-speed-counter-counts-while-its-coil-01240c73 = 高速计数器在线圈
 t-a-loop-98ec749a = 循环
 
 # a master control zone
-t-a-master-control-zone-3a03c20b = 主控区
+t-a-master-control-zone-3a03c20b = 主控区间
 
 # a PLC may reject it
 t-a-plc-may-reject-it-470d4dec = PLC 可能不接受
@@ -61,11 +61,29 @@ t-all-have-no-effect-in-a-compiled-program-55d9cac5 = { $all } 在编译后的�
 # always jumps back …
 t-always-jumps-back-8b9c5330 = 总是从此处跳回...
 
+# an enhanced N:N link
+t-an-enhanced-n-n-link-23aa5fc6 = 增强型 N:N 网络
+
 # an interrupt routine
 t-an-interrupt-routine-d2559fcd = 中断程序
 
+# an N:N link
+t-an-n-n-link-20d41274 = N:N 网络
+
+# an operation error each time this runs
+t-an-operation-error-each-time-this-runs-19f0655d = 每次执行都产生运算错误
+
 # an operation error each time this runs; the result does not change
 t-an-operation-error-each-time-this-runs-the-a7f4bbfa = 每次执行都发生运算错误；结果不变
+
+# … and again here
+t-and-again-here-451662f4 = { "." }..在此处又一次
+
+# … and again here: this one decides its state
+t-and-again-here-this-one-decides-its-state-41fa0fe0 = { "." }..在此处又一次：由这一处决定其状态
+
+# … and again here: this one decides the state of the coil
+t-and-again-here-this-one-decides-the-state-bf6fd7f4 = { "." }..在此处又一次：由这一处决定线圈的状态
 
 # and alone drives this
 t-and-alone-drives-this-392f4b26 = 只有后一块驱动此处
@@ -75,6 +93,12 @@ t-and-counts-here-0644ffb0 = { "." }..又在此处计数
 
 # … and here
 t-and-here-b037ffb0 = { "." }..此处也使用
+
+# … and in this one
+t-and-in-this-one-15549e7b = { "." }..以及在这个分支中
+
+# … and in this one, which decides while both run
+t-and-in-this-one-which-decides-while-both-d7912016 = { "." }..以及在这个分支中，两者都执行时由它决定
 
 # … and otherwise here
 t-and-otherwise-here-69b35e62 = { "." }..在此处另作设定
@@ -141,6 +165,9 @@ t-coil-output-is-also-the-output-of-mnemonic-f9fed463 = 线圈 `{ $output }` 也
 
 # COM3 is a Modbus RTU slave
 t-com3-is-a-modbus-rtu-slave-4e62920e = COM3 是 Modbus RTU 从站
+
+# COM3 is set up for the Ethernet card H2U-ENET-BD, which there is not
+t-com3-is-set-up-for-the-ethernet-card-ddcd4eca = COM3 设定为以太网卡 H2U-ENET-BD 使用，但没有安装此卡
 
 # connected directly to the bus
 t-connected-directly-to-the-bus-08606c76 = 直接接在母线上
@@ -250,6 +277,9 @@ t-device-set-here-d5eb0b43 = `{ $device }` 在此处置位
 # do the work of the inner loops in one loop
 t-do-the-work-of-the-inner-loops-in-5a3c005e = 把内层循环的工作放在一个循环中完成
 
+# drive it after RET, with the contacts of both states
+t-drive-it-after-ret-with-the-contacts-of-e4e218af = 在 RET 之后用两个状态的触点驱动它
+
 # drive it in the main program
 t-drive-it-in-the-main-program-c948d83d = 在主程序中驱动它
 
@@ -301,6 +331,9 @@ t-ends-n-level-28a7871b = 在此处结束 N{ $level }...
 # ends the {outside} …
 t-ends-the-outside-ad21c75b = { $outside }在此处结束...
 
+# falling
+t-falling-6aa25568 = 下降
+
 # `{family}` stands for all PLCs of the family
 t-family-stands-for-all-plcs-of-the-family-9ff03586 = `{ $family }` 代表该系列的所有 PLC
 
@@ -309,6 +342,15 @@ t-fast-inputs-and-outputs-take-asked-units-of-560b9841 = 快速输入和输出�
 
 # FEND inside {one}
 t-fend-inside-one-4d281b24 = FEND 位于{ $one }之内
+
+# finds the axis in use
+t-finds-the-axis-in-use-6fcf1833 = 发现轴已被占用
+
+# finds the output in use
+t-finds-the-output-in-use-ba5d19cf = 发现输出已被占用
+
+# finds the zone in use
+t-finds-the-zone-in-use-d543cdbe = 发现区域已被占用
 
 # {fine} continue by themselves and keep their value until RST, too, but count 1 ms: convert a preset given in {unit_ms} ms units
 t-fine-continue-by-themselves-and-keep-their-value-e6f62ddf = { $fine } 也能自行继续计时，并把当前值保持到 RST，但以 1 ms 为单位计时：须换算以 { $unit_ms } ms 为单位的设定值
@@ -391,6 +433,12 @@ t-free-continue-by-themselves-in-scans-that-do-0f3026f2 = 在不执行其线圈�
 # `{from}` branches into {transitions} states, the PLC follows {MAX_BRANCH}
 t-from-branches-into-transitions-states-the-plc-follows-de0449e0 = `{ $from }` 分支到 { $transitions } 个状态，PLC 最多执行 { $MAX_BRANCH } 个
 
+# give each its own zone, 0 to 5
+t-give-each-its-own-zone-0-to-5-c3f889e1 = 各自使用单独的区域，0 到 5
+
+# give each zone a separate relay
+t-give-each-zone-a-separate-relay-42bd27fe = 每个主控区使用单独的继电器
+
 # give one of the two another number, or merge both into one section
 t-give-one-of-the-two-another-number-or-06e1c001 = 其中一个改用其他编号，或把两段合并为一段
 
@@ -405,6 +453,9 @@ t-give-the-jump-a-condition-that-ends-the-5d1c28ad = 给跳转加上能结束循
 
 # give the subroutine its own label
 t-give-the-subroutine-its-own-label-ea0af4e3 = 给子程序单独的标号
+
+# give them conditions that are never on at the same time
+t-give-them-conditions-that-are-never-on-at-6e24d6ef = 使它们的条件不会同时接通
 
 # gives the limit of the range each time this runs
 t-gives-the-limit-of-the-range-each-time-0caab7dc = 每次执行的结果都是范围的极限值
@@ -451,6 +502,9 @@ t-interrupt-routine-device-does-not-exist-96446abd = 中断程序 `{ $device }` 
 # interrupts are disabled at the start of RUN
 t-interrupts-are-disabled-at-the-start-of-run-920fe59b = RUN 开始时中断处于禁止状态
 
+# is ignored while the other is driven
+t-is-ignored-while-the-other-is-driven-f094ad7d = 在另一个被驱动期间被忽略
+
 # is inside this {outside}
 t-is-inside-this-outside-980fad46 = 位于此{ $outside }之中
 
@@ -469,17 +523,29 @@ t-its-last-one-is-last-an-extension-module-dae6fd75 = 最后一个是 { $last }�
 # its last one is {last}
 t-its-last-one-is-last-c9064fef = 最后一个是 { $last }
 
+# its partners
+t-its-partners-5e505ce4 = 其通信对象
+
+# its partners then
+t-its-partners-then-12b86843 = 此时的通信对象
+
 # its pulse outputs are Y000 to {last}
 t-its-pulse-outputs-are-y000-to-last-19de981e = 脉冲输出为 Y000～{ $last }
 
 # its pulses are caught here …
 t-its-pulses-are-caught-here-c9a87cd5 = 在此处捕捉其脉冲...
 
+# its value never changes
+t-its-value-never-changes-6f45d843 = 其值从不变化
+
 # join the block with ANB or ORB first
 t-join-the-block-with-anb-or-orb-first-d1b466a4 = 先用 ANB 或 ORB 连接回路块
 
 # join the blocks with ANB (both) or ORB (either)
 t-join-the-blocks-with-anb-both-or-orb-679bb3e7 = 用 ANB（串联）或 ORB（并联）连接回路块
+
+# join the conditions with OR into one coil, or use SET and RST
+t-join-the-conditions-with-or-into-one-coil-220772e6 = 用 OR 把条件合并到一个线圈，或使用 SET 和 RST
 
 # jump to the FOR or past the NEXT
 t-jump-to-the-for-or-past-the-next-9627d0bf = 跳转到 FOR 处，或跳到 NEXT 之后
@@ -524,7 +590,10 @@ t-m-mask-which-is-on-at-power-on-24bd68f8 = 上电时为 ON 的 `M{ $mask }` 禁
 t-master-ca8dbf33 = 主站
 
 # master control zone
-t-master-control-zone-c1e5d068 = 主控区
+t-master-control-zone-c1e5d068 = 主控区间
+
+# may be
+t-may-be-0d4f8aaf = 可能是
 
 # may take effect only after the next change from STOP to RUN
 t-may-take-effect-only-after-the-next-change-19433602 = 可能要到下次从 STOP 切换到 RUN 后才生效
@@ -589,6 +658,18 @@ t-mnemonic-writes-one-half-of-the-32-bit-b340e8ea = `{ $mnemonic }` 写入了 `{
 # `{mnemonic}` writes `{part}`, which is part of the result of `{writer}` at `{first}`
 t-mnemonic-writes-part-which-is-part-of-the-d277dbf4 = `{ $mnemonic }` 写入 `{ $part }`，而它是 `{ $writer }` 存放在 `{ $first }` 的结果的一部分
 
+# Modbus ASCII master
+t-modbus-ascii-master-1989ced2 = Modbus ASCII 主站
+
+# Modbus ASCII slave
+t-modbus-ascii-slave-94f236f7 = Modbus ASCII 从站
+
+# Modbus RTU master
+t-modbus-rtu-master-dd3e7218 = Modbus RTU 主站
+
+# Modbus RTU slave
+t-modbus-rtu-slave-84cf1f61 = Modbus RTU 从站
+
 # `[[module]]` in rungc.toml lists {listed}
 t-module-in-rungc-toml-lists-listed-4ca36661 = rungc.toml 的 `[[module]]` 列出的模块：{ $listed }
 
@@ -600,6 +681,9 @@ t-more-than-eleven-branches-are-open-14c5cfee = 打开的分支超过 11 个
 
 # {most} and {last}
 t-most-and-last-b8e24f63 = { $most } 和 { $last }
+
+# motions of the axis that need it do not start
+t-motions-of-the-axis-that-need-it-do-c3e1e02f = 需要它的轴运动不会启动
 
 # MPS has no result to store
 t-mps-has-no-result-to-store-8215ba03 = MPS 没有可以存入的运算结果
@@ -651,6 +735,9 @@ t-named-and-rest-more-d5f3e524 = { $named } 及另外 { $rest } 个
 
 # {names}: not every {title} has such devices
 t-names-not-every-title-has-such-devices-c28113cd = { $names }：并非每台 { $title } 都有这样的软元件
+
+# never acts
+t-never-acts-ffb0f08e = 从不动作
 
 # nine STL in a row
 t-nine-stl-in-a-row-f0371edc = 连续九个 STL
@@ -739,6 +826,9 @@ t-nothing-to-run-600d1ba6 = 没有可执行的中断程序
 # number nested zones N0, N1, N2 … from outside to inside, and close each with MCR
 t-number-nested-zones-n0-n1-n2-from-outside-ff3b0d7f = 嵌套的区间从外到内编号为 N0、N1、N2...，每个都用 MCR 结束
 
+# numbers of slaves
+t-numbers-of-slaves-d31f5e26 = 从站的数量
+
 # on the same CAN bus
 t-on-the-same-can-bus-fdf00bff = 位于同一 CAN 总线上
 
@@ -777,6 +867,9 @@ t-p63-is-the-end-of-the-program-f05f4be4 = P63 是程序的结尾
 
 # `P63` must not be defined
 t-p63-must-not-be-defined-79f37b7a = 不得定义 `P63`
+
+# port with a free protocol
+t-port-with-a-free-protocol-c92a241f = 自由协议端口
 
 # programs write it while COM{port} is {title}
 t-programs-write-it-while-com-port-is-title-bee7213b = COM{ $port } 为 { $title } 时，由程序写入它
@@ -820,6 +913,9 @@ t-read-here-e7233285 = 在此处读取...
 # read here
 t-read-here-fb7c38f9 = 在此处读取
 
+# read here: nothing but the program changes it
+t-read-here-nothing-but-the-program-changes-it-d029033a = 在此处读取：除程序外没有任何东西改变它
+
 # read with `{lower}` as a 32-bit value
 t-read-with-lower-as-a-32-bit-value-ff8c094f = 与 `{ $lower }` 一起作为 32 位数据读取
 
@@ -840,6 +936,9 @@ t-requests-an-interrupt-here-000acca9 = 在此处请求中断...
 
 # returns to the branch
 t-returns-to-the-branch-30d458fe = 在此返回分支
+
+# rising
+t-rising-6d9323fb = 上升
 
 # routines of other interrupts end with IRET
 t-routines-of-other-interrupts-end-with-iret-56037982 = 其他中断的程序以 IRET 结束
@@ -862,6 +961,9 @@ t-self-is-the-protocol-partners-have-to-run-1e13a2ac = { $self } { $is }「{ $pr
 # {self} works through a Modbus table, which has no rows
 t-self-works-through-a-modbus-table-which-has-ae4fe7b0 = { $self } 按 Modbus 表工作，而表中没有行
 
+# sends no pulses
+t-sends-no-pulses-f5e5abcb = 不输出脉冲
+
 # serve by Modbus TCP with `--modbus-tcp 502` or `modbus-tcp = 502` in `[serve]` of rungc.toml
 t-serve-by-modbus-tcp-with-modbus-tcp-502-43387490 = 用 `--modbus-tcp 502`，或 rungc.toml 的 `[serve]` 中的 `modbus-tcp = 502`，提供 Modbus TCP 服务
 
@@ -879,6 +981,9 @@ t-set-up-like-this-here-4675ccd1 = 在此处这样设定...
 
 # slave
 t-slave-bc809d40 = 从站
+
+# slave of a computer link
+t-slave-of-a-computer-link-ff156611 = 计算机链接从站
 
 # so does this
 t-so-does-this-5f2359d4 = 此处也是如此
@@ -907,6 +1012,9 @@ t-starts-before-fend-962ed20e = 在 FEND 之前开始
 # starts here and never ends
 t-starts-here-and-never-ends-c23ad401 = 从这里开始，但没有结束
 
+# stations of slaves
+t-stations-of-slaves-a137327b = 从站的站号
+
 # step ladder
 t-step-ladder-1f505631 = 步进梯形图
 
@@ -931,6 +1039,9 @@ t-the-advanced-interrupts-are-i900-to-i907-b7f36f8e = 高级中断为 I900～I90
 # the branch starts here
 t-the-branch-starts-here-827ae4bd = 分支从这里开始
 
+# the CAN card is on CANlink: its partners have to run programs of rungc, too
+t-the-can-card-is-on-canlink-its-partners-fcfe19f3 = CAN 卡使用 CANlink：其通信对象也必须执行 rungc 的程序
+
 # the chain starts here
 t-the-chain-starts-here-fa540540 = 调用链从这里开始
 
@@ -940,6 +1051,9 @@ t-the-first-branch-b108baae = 第一个分支
 # the first device of the range comes after the last
 t-the-first-device-of-the-range-comes-after-eaab46f5 = 范围的首软元件位于末软元件之后
 
+# the first of them
+t-the-first-of-them-9c4eadeb = 其中的第一个
+
 # the first one
 t-the-first-one-ff15d136 = 第一个中断程序
 
@@ -948,6 +1062,9 @@ t-the-first-one-is-here-793dcf54 = 第一个在这里
 
 # the first one starts here
 t-the-first-one-starts-here-5ae35b07 = 第一个从这里开始
+
+# the format word H{word} of {port} names no bit rate
+t-the-format-word-h-word-of-port-names-f47b70ed = { $port } 的通信格式 H{ $word } 没有指定波特率
 
 # the host that runs the program must do what it does on the PLC
 t-the-host-that-runs-the-program-must-do-4f7ca491 = 运行程序的宿主程序必须完成它在 PLC 上的功能
@@ -1000,6 +1117,9 @@ t-the-parameters-latch-range-but-the-latched-devices-3baf5c9b = 参数把 { $ran
 # the parameters set a memory of {steps} steps, but {model} has {memory_steps}
 t-the-parameters-set-a-memory-of-steps-steps-02c76d78 = 参数设定的程序存储器为 { $steps } 步，但 { $model } 只有 { $memory_steps } 步
 
+# the PLC is both master and slave of a parallel link
+t-the-plc-is-both-master-and-slave-of-2daef381 = PLC 同时是并联链接的主站和从站
+
 # the port is set up here
 t-the-port-is-set-up-here-1ee04a68 = 端口在此处设定
 
@@ -1032,6 +1152,9 @@ t-the-state-state-occurs-twice-ff76907b = 状态 `{ $state }` 重复出现
 
 # the subroutine starts here
 t-the-subroutine-starts-here-f84146bf = 子程序从这里开始
+
+# the table does not change
+t-the-table-does-not-change-6f2d7a60 = 表不会改变
 
 # the table of ABSD starts at `{device}`, no multiple of 8
 t-the-table-of-absd-starts-at-device-no-c3fc9387 = ABSD 的表从 `{ $device }` 开始，编号不是 8 的倍数
@@ -1192,6 +1315,12 @@ t-use-a-separate-input-55fafafc = 另用一个输入
 # use a separate input, or set a relay in the interrupt routine
 t-use-a-separate-input-or-set-a-relay-11cfd7e2 = 另用一个输入，或在中断程序中置位一个继电器
 
+# use a separate one in each branch
+t-use-a-separate-one-in-each-branch-c7bbfd2c = 每个分支使用单独的一个
+
+# use a separate one in each place
+t-use-a-separate-one-in-each-place-5fe3c71f = 每处使用单独的一个
+
 # use an ordinary device instead of `{device}` if it is a flag or value of the program's own
 t-use-an-ordinary-device-instead-of-device-if-4cc85eeb = 如果 `{ $device }` 是程序自用的标志或数据，改用普通软元件
 
@@ -1299,6 +1428,9 @@ t-written-here-de95a7fe = 在此处写入
 
 # … written here …
 t-written-here-fd4ccc26 = { "." }..在此处写入...
+
+# written here: nothing depends on it but the program
+t-written-here-nothing-depends-on-it-but-the-5db920c8 = 在此处写入：除程序外没有任何东西依赖它
 
 # written here too
 t-written-here-too-60f4f8b0 = 此处也写入

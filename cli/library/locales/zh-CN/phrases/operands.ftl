@@ -16,11 +16,32 @@ t-a-coil-is-y-m-s-t-c-06076c58 = 线圈为 Y、M、S、T、C 或字元件的位�
 #  (a comparison is `{comparison}`)
 t-a-comparison-is-comparison-d95420df = （比较写作 `{ $comparison }`）
 
+# a constant cannot be written
+t-a-constant-cannot-be-written-7f5969a7 = 常数不能写入
+
+# a counter is a coil with its preset: `OUT C0 K10`
+t-a-counter-is-a-coil-with-its-preset-3513ab6c = 计数器是带设定值的线圈：`OUT C0 K10`
+
+# a jump is `CJ`, driven by contacts: `LD M8000`, `CJ P0`
+t-a-jump-is-cj-driven-by-contacts-ld-4faec209 = 跳转是 `CJ`，由触点驱动：`LD M8000`、`CJ P0`
+
+# a list has no statements: a condition is contacts before what they drive (`LD M0`, `OUT Y000`) or before a jump
+t-a-list-has-no-statements-a-condition-is-abbf9915 = 指令表没有语句：条件是被驱动对象（`LD M0`、`OUT Y000`）或跳转之前的触点
+
 # a second instruction, `{second}`, on one line
 t-a-second-instruction-second-on-one-line-d92d2bad = 同一行中有第二条指令 `{ $second }`
 
 # a space is missing: `{name} {words}`
 t-a-space-is-missing-name-words-abbef988 = 缺少空格：`{ $name } { $words }`
+
+# a subroutine ends with `SRET`
+t-a-subroutine-ends-with-sret-8ed8955c = 子程序以 `SRET` 结束
+
+# a subroutine is called with `CALL P0`
+t-a-subroutine-is-called-with-call-p0-496a850d = 用 `CALL P0` 调用子程序
+
+# a timer is a coil with its preset: `OUT T0 K30`
+t-a-timer-is-a-coil-with-its-preset-022b30a2 = 定时器是带设定值的线圈：`OUT T0 K30`
 
 # accepted: {kinds}
 t-accepted-kinds-7f960849 = 可用的类型：{ $kinds }
@@ -43,6 +64,12 @@ t-before-boards-takes-it-d380a90e = { $before }`{ $boards }` 支持它
 # {before} or {last}
 t-before-or-last-79ca17d3 = { $before } 或 { $last }
 
+# blocks are joined with `ANB` here
+t-blocks-are-joined-with-anb-here-d127d1a3 = 此处用 `ANB` 连接电路块
+
+# blocks are joined with `ORB` here
+t-blocks-are-joined-with-orb-here-00ce2aa9 = 此处用 `ORB` 连接电路块
+
 # C200 and up in the 32-bit form
 t-c200-and-up-in-the-32-bit-form-52448d81 = 32 位形式使用 C200 及以上
 
@@ -60,6 +87,9 @@ t-compare-this-step-with-the-editor-or-export-5477256a = 在编程软件中核�
 
 # comparisons are not negated: the opposite is `{right}`
 t-comparisons-are-not-negated-the-opposite-is-right-e21ff70e = 比较不能取反：相反的比较是 `{ $right }`
+
+# … conflicts with this
+t-conflicts-with-this-4d842ebc = { "." }..与此处冲突
 
 # `{device}` cannot be used here
 t-device-cannot-be-used-here-121463ee = 此处不能使用 `{ $device }`
@@ -100,6 +130,15 @@ t-did-you-mean-names-compared-6f869976 = 是否应为 { $names }？{ $compared }
 # did you mean the label `{label}`?
 t-did-you-mean-the-label-label-7bc33378 = 是否应为标号 `{ $label }`？
 
+# e.g. {below}
+t-e-g-below-f2c0f8ba = 例如 { $below }
+
+# H0 to HFFFF here
+t-h0-to-hffff-here-6371ecc0 = 此处为 H0 到 HFFFF
+
+# H0 to HFFFFFFFF here
+t-h0-to-hffffffff-here-6f23d388 = 此处为 H0 到 HFFFFFFFF
+
 # {help}; 
 t-help-c0998553 = { $help }；
 
@@ -115,8 +154,20 @@ t-index-cannot-be-the-index-in-the-32-1ddbc0af = `{ $index }` 在 32 位指令 `
 # `{index}` is not allowed here
 t-index-is-not-allowed-here-55a23cec = 此处不允许使用 `{ $index }`
 
+# inputs cannot be written
+t-inputs-cannot-be-written-845651ff = 输入不能写入
+
+# `INV` inverts the result of the contacts before it
+t-inv-inverts-the-result-of-the-contacts-before-37b55de2 = `INV` 把之前触点的结果取反
+
 # it has no {prefix}
 t-it-has-no-prefix-e6fd9be9 = 没有 { $prefix }
+
+# K-2147483648 to K2147483647 here
+t-k-2147483648-to-k2147483647-here-fe3e05ce = 此处为 K-2147483648 到 K2147483647
+
+# K-32768 to K32767 here
+t-k-32768-to-k32767-here-6dff112c = 此处为 K-32768 到 K32767
 
 # K{digits} is not a valid digit count for a {bits}-bit value
 t-k-digits-is-not-a-valid-digit-count-346a4869 = K{ $digits } 不是 { $bits } 位数据的有效组数
@@ -132,6 +183,9 @@ t-k-of-k-twice-here-765f2f46 = 此处为 K{ $of }、K{ $twice } 等
 
 # K{whole} here
 t-k-whole-here-1e7e2df5 = 此处应为 K{ $whole }
+
+# K0 to K32767 here
+t-k0-to-k32767-here-845e80a7 = 此处为 K0 到 K32767
 
 # K1 to K{most} here
 t-k1-to-k-most-here-6f0ab3cc = 此处应为 K1～K{ $most }
@@ -205,6 +259,9 @@ t-name-takes-floats-here-constant-a-float-takes-a75ba9c3 = `{ $name }` 使用浮
 # `{name}` takes no operand
 t-name-takes-no-operand-ccb541a0 = `{ $name }` 没有操作数
 
+# name the device directly, or copy the indexed one first: `MOV`, `BMOV`
+t-name-the-device-directly-or-copy-the-indexed-38726ea7 = 直接写软元件，或先复制变址的软元件：`MOV`、`BMOV`
+
 # name the first and the last device of one class
 t-name-the-first-and-the-last-device-of-9efe8c0c = 首软元件和末软元件须为同一类型
 
@@ -223,8 +280,32 @@ t-no-such-buffer-memory-472adc88 = 没有此缓冲存储区（BFM）
 # no supported model has it
 t-no-supported-model-has-it-a9aa8efe = 支持的机型都没有它
 
+# not accepted here
+t-not-accepted-here-2f697253 = 此处不接受
+
 # not on {model}
 t-not-on-model-01c4f80e = { $model } 没有
+
+# `{one}` does not match `{another}`
+t-one-does-not-match-another-521cbb4f = `{ $one }` 与 `{ $another }` 不匹配
+
+# `{one}` must be in the same range as, and not before, `{another}`
+t-one-must-be-in-the-same-range-as-bd5545d4 = `{ $one }` 必须与 `{ $another }` 在同一范围内，并且不在其之前
+
+# `{one}` must be of the same class as `{another}`
+t-one-must-be-of-the-same-class-as-b54d9b00 = `{ $one }` 必须与 `{ $another }` 是同一种软元件
+
+# `{one}` must be smaller than `{another}`
+t-one-must-be-smaller-than-another-5f148f13 = `{ $one }` 必须小于 `{ $another }`
+
+# `{one}` must have as many digits as `{another}`
+t-one-must-have-as-many-digits-as-another-c9d0f22c = `{ $one }` 的位数必须与 `{ $another }` 相同
+
+# `{one}` must not be greater than `{another}`
+t-one-must-not-be-greater-than-another-03af2964 = `{ $one }` 不得大于 `{ $another }`
+
+# `{one}` must not be smaller than `{another}`
+t-one-must-not-be-smaller-than-another-2eca5082 = `{ $one }` 不得小于 `{ $another }`
 
 # only a data register has bits: `D0.F`
 t-only-a-data-register-has-bits-d0-f-11547a75 = 只有数据寄存器可以指定位：`D0.F`
@@ -253,6 +334,12 @@ t-operands-names-are-missing-7c499043 = 缺少操作数 { $names }
 # pulse
 t-pulse-550bfe9e = 脉冲执行
 
+# put each on its own line
+t-put-each-on-its-own-line-317cebb0 = 各放到单独一行
+
+# put it on its own line
+t-put-it-on-its-own-line-80974120 = 放到单独一行
+
 # scale the value, and write a whole number such as `K15`
 t-scale-the-value-and-write-a-whole-number-a4cbe464 = 换算数值，改用整数，如 `K15`
 
@@ -265,14 +352,38 @@ t-starts-here-66ea5c3a = 从这里开始
 # step {expected}, counting the instructions before it
 t-step-expected-counting-the-instructions-before-it-38c387d8 = 按前面的指令计算，为第 { $expected } 步
 
+# `{text}` is not a valid operand
+t-text-is-not-a-valid-operand-5fabbc37 = `{ $text }` 不是有效的操作数
+
+# the coil is `OUT` here
+t-the-coil-is-out-here-eb2932a5 = 此处线圈是 `OUT`
+
+# the coil that is on for one scan is `PLS`, the contact `LDP`
+t-the-coil-that-is-on-for-one-scan-51f60f1d = 接通一个扫描周期的线圈是 `PLS`，触点是 `LDP`
+
+# the coil that is on for one scan is `PLF`, the contact `LDF`
+t-the-coil-that-is-on-for-one-scan-8e08a558 = 接通一个扫描周期的线圈是 `PLF`，触点是 `LDF`
+
 # the comparison is `{right}`
 t-the-comparison-is-right-b28f05c7 = 此比较写作 `{ $right }`
+
+# the first contact of a rung is `LD` here
+t-the-first-contact-of-a-rung-is-ld-b21908c0 = 此处梯级的第一个触点是 `LD`
 
 # the index is a pair here, named by its Z
 t-the-index-is-a-pair-here-named-by-a2a6c16f = 此处变址寄存器是一对，用其中的 Z 表示
 
 # the memory capacity in the PLC parameters leaves {steps}
 t-the-memory-capacity-in-the-plc-parameters-leaves-c101ac21 = 按 PLC 参数的存储器容量只有 { $steps } 步
+
+# the negated contact is `ANI` here
+t-the-negated-contact-is-ani-here-ed9420b2 = 此处取反触点是 `ANI`
+
+# the negated contact is `LDI` here
+t-the-negated-contact-is-ldi-here-a829a897 = 此处取反触点是 `LDI`
+
+# the negated contact is `ORI` here
+t-the-negated-contact-is-ori-here-b0ad2a74 = 此处取反触点是 `ORI`
 
 # the number of `{device}` does not end in 0
 t-the-number-of-device-does-not-end-in-81e25c40 = `{ $device }` 的编号末位不是 0
@@ -291,6 +402,12 @@ t-the-project-states-stated-steps-for-mnemonic-which-9de16b3e = 工程中注明 
 
 # the source numbers this step {stated}, but on {model} it is step {expected}{more}
 t-the-source-numbers-this-step-stated-but-on-136dea25 = 源文件中此步的步号为 { $stated }，但在 { $model } 上是第 { $expected } 步{ $more }
+
+# there is no negated coil: write `INV` before `OUT`
+t-there-is-no-negated-coil-write-inv-before-06dd587c = 没有取反线圈：在 `OUT` 之前写 `INV`
+
+# this …
+t-this-8fafe08d = 此处...
 
 # this may be another instruction
 t-this-may-be-another-instruction-ce7e5842 = 这可能是另一条指令
@@ -322,6 +439,12 @@ t-use-z-number-dac70437 = 使用 `Z{ $number }`
 # V and Z are a pair here, named by its Z
 t-v-and-z-are-a-pair-here-named-ed0083af = 此处 V 和 Z 是一对，用其中的 Z 表示
 
+# write `AND`
+t-write-and-688c0967 = 写成 `AND`
+
+# write each instruction on its own line
+t-write-each-instruction-on-its-own-line-11428282 = 每条指令各占一行
+
 # write `{form}`
 t-write-form-7754e66a = 写作 `{ $form }`
 
@@ -340,8 +463,20 @@ t-write-name-and-constant-d925dfa2 = 改为 `{ $name }` 和 `{ $constant }`
 # write `{only}`
 t-write-only-9c2c1dfa = 改为 `{ $only }`
 
+# write `OR`
+t-write-or-156e49f3 = 写成 `OR`
+
+# write `RST`
+t-write-rst-799f7327 = 写成 `RST`
+
 # write `{second}` on its own line
 t-write-second-on-its-own-line-1cd78977 = 把 `{ $second }` 单独写成一行
+
+# write `SET`
+t-write-set-a014fd7c = 写成 `SET`
+
+# write `{text}`
+t-write-text-8ccd2e5b = 改为 `{ $text }`
 
 # write `Z{number}`
 t-write-z-number-c7aed84f = 改为 `Z{ $number }`

@@ -1,8 +1,23 @@
+# 16-bit instructions accept H0 to HFFFF, 32-bit ones H0 to HFFFFFFFF
+t-16-bit-instructions-accept-h0-to-hffff-32-db35ccaf = 16 位指令接受 H0 到 HFFFF，32 位指令接受 H0 到 HFFFFFFFF
+
+# 16-bit instructions accept K-32768 to K32767, 32-bit ones K-2147483648 to K2147483647
+t-16-bit-instructions-accept-k-32768-to-k32767-4cff1825 = 16 位指令接受 K-32768 到 K32767，32 位指令接受 K-2147483648 到 K2147483647
+
 # 16-bit instructions accept K1 to K4, 32-bit ones K1 to K8
 t-16-bit-instructions-accept-k1-to-k4-32-93de3a41 = 16 位指令可用 K1～K4，32 位指令可用 K1～K8
 
 # 8 and 9 are not octal digits
 t-8-and-9-are-not-octal-digits-42e68c81 = 八进制没有 8 和 9
+
+# a floating constant starts with E here
+t-a-floating-constant-starts-with-e-here-7f3e85fc = 此处浮点常数以 E 开头
+
+# a group of bits starts with K
+t-a-group-of-bits-starts-with-k-8c9d5962 = 位元件组以 K 开头
+
+# a hexadecimal constant starts with H here
+t-a-hexadecimal-constant-starts-with-h-here-15c6ae30 = 此处十六进制常数以 H 开头
 
 # a label is to the left of the rail
 t-a-label-is-to-the-left-of-the-42d40e8b = 标号应位于左母线的左侧
@@ -13,6 +28,9 @@ t-a-letter-where-a-digit-is-expected-85d4e309 = 此处应为数字，却是字�
 # a mnemonic starts with a letter
 t-a-mnemonic-starts-with-a-letter-9beb6190 = 助记符以字母开头
 
+# a name is one word, which a pointer may follow: `SBR name P1`
+t-a-name-is-one-word-which-a-pointer-36c96557 = 名称是一个词，其后可以有指针：`SBR name P1`
+
 # a number without its device
 t-a-number-without-its-device-5100eaeb = 只有数字，没有软元件
 
@@ -21,6 +39,9 @@ t-a-number-without-its-kind-dc890bbb = 只有数字，没有类型
 
 # a number without its {prefix}
 t-a-number-without-its-prefix-18656be1 = 数字前缺少 { $prefix }
+
+# a program has at most 64000 steps
+t-a-program-has-at-most-64000-steps-5a1c51b5 = 程序最多有 64000 步
 
 # a step number is a decimal number
 t-a-step-number-is-a-decimal-number-e9851ede = 步号是十进制数
@@ -31,6 +52,15 @@ t-a-text-of-this-row-begins-with-a-46133e22 = 此行的一个文本以双引号�
 # add `END` as the last instruction
 t-add-end-as-the-last-instruction-a1ace326 = 加 `END` 作为最后一条指令
 
+# add the interrupt pointer: `INT_01 I001`
+t-add-the-interrupt-pointer-int-01-i001-a867479e = 加上中断指针：`INT_01 I001`
+
+# add the interrupt pointer: `INT name I001`
+t-add-the-interrupt-pointer-int-name-i001-8c708dcb = 加上中断指针：`INT name I001`
+
+# add the name of the subroutine: `SBR name`
+t-add-the-name-of-the-subroutine-sbr-name-5e3fa9c0 = 加上子程序的名称：`SBR name`
+
 # add them to a task in GX Works2 if they are part of the program
 t-add-them-to-a-task-in-gx-works2-fd0b7fad = 如果它们属于程序，在 GX Works2 中把它们加入任务
 
@@ -39,6 +69,9 @@ t-an-end-is-missing-6083b60f = 缺少 `END`
 
 # an FX-family PLC runs one program file: move what you need from the others into it
 t-an-fx-family-plc-runs-one-program-file-4a0336a3 = FX 系列 PLC 只运行一个程序文件：把其他程序文件中需要的内容移到其中
+
+# an FX list names devices: `LD X000`, `ANI X001`, `OUT Y000`, `END`
+t-an-fx-list-names-devices-ld-x000-ani-19d25dee = FX 指令表写软元件：`LD X000`、`ANI X001`、`OUT Y000`、`END`
 
 # an image begins with 92 bytes of parameters; the program follows them
 t-an-image-begins-with-92-bytes-of-parameters-63d1052e = 映像以 92 字节的参数开头，其后是程序
@@ -55,11 +88,20 @@ t-an-operand-is-for-example-prefix-10-with-4336f74c = 操作数的写法如 `{ $
 # `;` and `//` start a comment
 t-and-start-a-comment-42aaeaa7 = `;` 和 `//` 是注释的开头
 
+# another window has this name
+t-another-window-has-this-name-cbecda6f = 另一个窗口有此名称
+
 # bit 10 is `.A`, bit 15 is `.F`
 t-bit-10-is-a-bit-15-is-f-4cd6e195 = 位 10 写作 `.A`，位 15 写作 `.F`
 
+# check the exponent
+t-check-the-exponent-2fbd336b = 检查指数
+
 # check the exponent, or write `E0`
 t-check-the-exponent-or-write-e0-1a5a40f0 = 检查指数，或写成 `E0`
+
+# check the number for surplus digits
+t-check-the-number-for-surplus-digits-780199de = 检查编号是否有多余的数字
 
 # close the text
 t-close-the-text-f33cd10f = 结束字符串
@@ -118,8 +160,14 @@ t-export-the-list-of-the-compiled-program-or-359ff1dc = 导出编译后程序的
 # export the project again
 t-export-the-project-again-777e9985 = 重新导出工程
 
+# floating constant
+t-floating-constant-ef13e259 = 浮点常数
+
 # floating constant `{text}` is too close to 0
 t-floating-constant-text-is-too-close-to-0-a0c5136b = 浮点常数 `{ $text }` 过于接近 0
+
+# H is H0 to HFFFFFFFF
+t-h-is-h0-to-hffffffff-734847a4 = H 为 H0 到 HFFFFFFFF
 
 # if it is yours, delete the keyword in the editor and save the project again
 t-if-it-is-yours-delete-the-keyword-in-522d99e1 = 如果工程是您的，请在编程软件中删除密码（关键字）后重新保存
@@ -145,6 +193,15 @@ t-its-instruction-is-missing-export-the-list-again-4e39edcc = 缺少它所属的
 # jumps and calls name the number of a label, for example `P0`
 t-jumps-and-calls-name-the-number-of-a-25ef272a = 跳转和调用写出标号的编号，如 `P0`
 
+# K is K-2147483648 to K2147483647
+t-k-is-k-2147483648-to-k2147483647-f1863eb9 = K 为 K-2147483648 到 K2147483647
+
+# `{letter}` is U+{code}, not a Latin letter
+t-letter-is-u-code-not-a-latin-letter-80e40692 = `{ $letter }` 是 U+{ $code }，不是拉丁字母
+
+# name the file `.st`, begin it with `PROGRAM Name` and end it with `END_PROGRAM`
+t-name-the-file-st-begin-it-with-program-1205c230 = 把文件命名为 `.st`，以 `PROGRAM Name` 开头，以 `END_PROGRAM` 结尾
+
 # neither a device nor a constant
 t-neither-a-device-nor-a-constant-a7f473b1 = 既不是软元件，也不是常数
 
@@ -159,6 +216,9 @@ t-no-image-shows-it-b6c43516 = 没有映像出现过它
 
 # no known image shows what these bytes mean
 t-no-known-image-shows-what-these-bytes-mean-3278dcd9 = 没有已知的映像说明这些字节的含义
+
+# no model has a device with this number
+t-no-model-has-a-device-with-this-number-f7c5e133 = 没有机型有此编号的软元件
 
 # no project or published table shows this code
 t-no-project-or-published-table-shows-this-code-a7bcd325 = 没有工程或公开的表出现过此编码
@@ -198,6 +258,12 @@ t-only-the-compiled-program-says-which-device-this-04928f5e = 只有编译后的
 
 # only X, Y, M and S can be grouped
 t-only-x-y-m-and-s-can-be-02b7bada = 只有 X、Y、M 和 S 可以组合
+
+# open it in its editor and export the list of the compiled program
+t-open-it-in-its-editor-and-export-the-4d60947b = 在其编辑器中打开，并导出编译后程序的指令表
+
+# open it in the editor that wrote it and export the list of the compiled program
+t-open-it-in-the-editor-that-wrote-it-fde879f9 = 在生成它的编辑器中打开，并导出编译后程序的指令表
 
 # open the project in GX Works2, compare, and save it again
 t-open-the-project-in-gx-works2-compare-and-c1ab3105 = 在 GX Works2 中打开工程，对照后重新保存
@@ -244,8 +310,17 @@ t-shorter-than-the-parameters-that-precede-a-program-9e4fce32 = 比程序之前�
 # single precision begins at about 1.18E-38
 t-single-precision-begins-at-about-1-18e-38-9e5fc5ce = 单精度的最小值约为 1.18E-38
 
+# single precision ends at about 3.4E+38
+t-single-precision-ends-at-about-3-4e-38-79e85c5f = 单精度最大约为 3.4E+38
+
+# step number
+t-step-number-e7bd2938 = 步号
+
 # step number `{text}` has no instruction
 t-step-number-text-has-no-instruction-c004f3fe = 步号 `{ $text }` 之后没有指令
+
+# step numbers are optional: omit it
+t-step-numbers-are-optional-omit-it-de6f2803 = 步号可以省略：去掉它
 
 # steps and automatically assigned devices are those of the last compilation
 t-steps-and-automatically-assigned-devices-are-those-of-76b686e5 = 步号和自动分配的软元件是上次编译时的
@@ -264,9 +339,6 @@ t-text-groups-prefix-devices-which-cannot-be-grouped-b4fe0874 = `{ $text }` 对�
 
 # `{text}` is a label, not a device
 t-text-is-a-label-not-a-device-8b3f4ebf = `{ $text }` 是标签，不是软元件
-
-# `{text}` is not a valid operand
-t-text-is-not-a-valid-operand-5fabbc37 = `{ $text }` 不是有效的操作数
 
 # `{text}` is not an octal number: {prefix} devices have no digits 8 and 9
 t-text-is-not-an-octal-number-prefix-devices-82cdaf42 = `{ $text }` 不是八进制编号：{ $prefix } 的编号中没有 8 和 9
@@ -289,9 +361,6 @@ t-the-digit-count-is-1-to-8-2c28b152 = 组数为 1～8
 # the file ends here
 t-the-file-ends-here-65f3ee6e = 文件在这里结束
 
-# the first of them
-t-the-first-of-them-9c4eadeb = 其中的第一个
-
 # the image is protected by a keyword, and its program is not read
 t-the-image-is-protected-by-a-keyword-and-0cff493a = 映像受密码（关键字）保护，程序未读取
 
@@ -300,6 +369,12 @@ t-the-ladder-is-used-cc65bce5 = 使用梯形图
 
 # the longest program of the file
 t-the-longest-program-of-the-file-55556e5e = 文件中最长的程序
+
+# the main program comes first, and once
+t-the-main-program-comes-first-and-once-00c68660 = 主程序在最前面，并且只有一个
+
+# the number of
+t-the-number-of-e8392b02 = 编号
 
 # the only text is in the column of steps
 t-the-only-text-is-in-the-column-of-9012c489 = 只有步号一列中有文字
@@ -331,8 +406,26 @@ t-the-text-ends-here-but-instructions-follow-among-0fba5fb1 = 文本在这里结
 # the XML is damaged here
 t-the-xml-is-damaged-here-3bfc2eee = XML 在这里损坏
 
+# this is a PLCopen XML project, not an FX instruction list
+t-this-is-a-plcopen-xml-project-not-an-d09456af = 这是 PLCopen XML 项目，不是 FX 指令表
+
+# this is an XML file, not an FX instruction list
+t-this-is-an-xml-file-not-an-fx-e71e894d = 这是 XML 文件，不是 FX 指令表
+
+# this is IEC 61131-3 instruction list, not an FX instruction list
+t-this-is-iec-61131-3-instruction-list-not-f81036b6 = 这是 IEC 61131-3 指令表，不是 FX 指令表
+
 # this is not the program memory of an FX PLC
 t-this-is-not-the-program-memory-of-an-f2b8d9a3 = 这不是 FX 系列 PLC 的程序存储器
+
+# this is structured text, not an FX instruction list
+t-this-is-structured-text-not-an-fx-instruction-60f54a3f = 这是结构化文本，不是 FX 指令表
+
+# this label has a space before its number
+t-this-label-has-a-space-before-its-number-dce98e98 = 此标号在编号之前有空格
+
+# this operand has a space before its number
+t-this-operand-has-a-space-before-its-number-230acf53 = 此操作数在编号之前有空格
 
 # this program
 t-this-program-0627b665 = 此程序
@@ -370,9 +463,6 @@ t-windows-begin-with-main-sbr-name-and-int-07edeb99 = 程序块的标题为 `MAI
 # words have no digit count, for example `D0`; separate operands with a space
 t-words-have-no-digit-count-for-example-d0-c710beeb = 字元件没有组数，如 `D0`；操作数之间用空格分隔
 
-# write each instruction on its own line
-t-write-each-instruction-on-its-own-line-11428282 = 每条指令各占一行
-
 # write for example `E1.5` or `E-1.5E+3`
 t-write-for-example-e1-5-or-e-1-25d261ce = 写法如 `E1.5` 或 `E-1.5E+3`
 
@@ -402,9 +492,6 @@ t-write-k-for-a-decimal-constant-h-for-57edca2d = 十进制常数写作 `{ $k }`
 
 # write `{meant}`
 t-write-meant-cf7baf45 = 改为 `{ $meant }`
-
-# write `{text}`
-t-write-text-8ccd2e5b = 改为 `{ $text }`
 
 # write the device with its letter, for example `{meant}`
 t-write-the-device-with-its-letter-for-example-cbbcb4b7 = 写出软元件的字母，如 `{ $meant }`

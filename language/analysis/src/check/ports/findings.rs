@@ -327,9 +327,10 @@ impl Port<'_> {
         let (Some(word), Some(place)) = (word, self.place(register)) else {
             return;
         };
-        let message = format!(
-            "the format word H{word:X} of {} names no bit rate",
-            self.name()
+        let message = phrase!(
+            "the format word H{word} of {port} names no bit rate",
+            word = format!("{word:X}"),
+            port = self.name()
         );
         let diagnostic = codes::PORT_RATE
             .at(self.code.span(place), message)
