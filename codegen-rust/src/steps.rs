@@ -88,7 +88,9 @@ impl Generator<'_> {
         body.code(match change {
             Move::Enter(..) if !later => quote!(#steps.#method(&mut #states, #at);),
             _ if later => quote!(run = #steps.#method(&mut #states, run, #at);),
-            _ => quote!(#steps.#method(&mut #states, run, #at);),
+            Move::Enter(..) | Move::Transfer(..) | Move::Leave(_) => {
+                quote!(#steps.#method(&mut #states, run, #at);)
+            }
         });
         body.trailing_comment(&comments::device(&self.storage, S, state));
     }

@@ -318,10 +318,10 @@ impl Finder<'_, '_> {
         let mut roots = Vec::new();
         statements(case.rest, &mut |stmt| {
             if let Stmt::Do(action) = stmt {
-                match action {
-                    // A state that it writes as a whole.
-                    Action::Write(access, _) if access.kind == AccessKind::Bit => {}
-                    action => of_action(module.model, action, &mut note),
+                // A state that it writes as a whole is not read.
+                let is_bit = |access: &Access| access.kind == AccessKind::Bit;
+                if !matches!(action, Action::Write(access, _) if is_bit(access)) {
+                    of_action(module.model, action, &mut note);
                 }
             }
         });

@@ -555,8 +555,10 @@ fn bits(found: Found, param: &Param) -> u32 {
 fn without_index(kind: &OperandKind, mnemonic: &str) -> Phrase {
     let class = device_of(kind).map(|device| device.class);
     match class {
-        Some(DeviceClass::P | DeviceClass::I) => phrase!("name the pointer directly: one `{mnemonic}` for each, under a comparison of the index register", mnemonic)
-        .into(),
+        Some(DeviceClass::P | DeviceClass::I) => phrase!(
+            "name the pointer directly: one `{mnemonic}` for each, under a comparison of the index register",
+            mnemonic
+        ),
         _ => "name the device directly, or copy the indexed one first: `MOV`, `BMOV`".into(),
     }
 }
