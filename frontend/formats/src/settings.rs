@@ -38,9 +38,12 @@ pub fn settings_text(path: &Path, bytes: Vec<u8>, program: &str) -> Result<Strin
 /// Description of a text with mistakes in its TOML that is another kind of file, and what to do with it; `None` if it
 /// is meant as TOML. `program` is what to do with a program.
 pub fn not_settings(path: &Path, text: &str, program: &str) -> Option<String> {
-    // Settings of other programs (INI) look the same.
+    // Settings of other programs (INI) look the same, and an empty file may be meant.
     let has_tables = text.lines().any(|line| line.trim_start().starts_with('['));
-    other_kind(path, text.as_bytes(), program).filter(|_| !has_tables && !is_meant_as_toml(text))
+    if text.trim().is_empty() || has_tables || is_meant_as_toml(text) {
+        return None;
+    }
+    other_kind(path, text.as_bytes(), program)
 }
 
 fn other_kind(path: &Path, bytes: &[u8], program: &str) -> Option<String> {

@@ -87,6 +87,7 @@ fn recording(text: &str) {
 
 fn names(text: &str) {
     let _ = Names::parse(text);
+    let _ = Names::read(text.as_bytes());
 }
 
 /// Safety functions of a project's settings, and its cause-and-effect matrix `m.csv`: the text after a line of `---`.

@@ -104,7 +104,7 @@ const NO_READERS: [&str; 7] = [
 
 /// Readers and decoders, each with a target that calls it.
 #[rustfmt::skip]
-const READERS: [(&str, &str); 48] = [
+const READERS: [(&str, &str); 49] = [
     ("cli/library/src/trace.rs read", "recording"),
     ("firmware/src/board.rs parse", "board"),
     ("firmware/src/flash.rs read", "flash-file"),
@@ -120,6 +120,7 @@ const READERS: [(&str, &str); 48] = [
     ("frontend/formats/src/lib.rs read_from", "instruction-list"),
     ("frontend/formats/src/plcopen/mod.rs read", "plcopen"),
     ("frontend/formats/src/plcopen/variables.rs parse", "variable-names"),
+    ("frontend/formats/src/plcopen/variables.rs read", "variable-names"),
     ("project/src/lib.rs parse", "settings"),
     ("project/src/reader.rs read", "settings"),
     ("project/src/serve.rs parse", "words"),
