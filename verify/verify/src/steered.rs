@@ -619,7 +619,8 @@ fn bits(key: Key) -> u32 {
     }
 }
 
-/// Value of a piece of memory; 0 if the program does not store it.
+/// Value of a piece of memory; 0 if the program does not store it, or if it is a part of a timer or counter that a PLC
+/// does not show.
 pub fn value_of(machine: &impl Plc, key: Key) -> i64 {
     let found = match key {
         Key::Bit(class, number) => rt_class(class)
@@ -629,9 +630,9 @@ pub fn value_of(machine: &impl Plc, key: Key) -> i64 {
             .and_then(|class| machine.word(class, number))
             .map(i64::from),
         Key::Timer(number, TimerPart::Done) => machine.bit(Class::T, number).map(i64::from),
-        Key::Timer(number, _) => machine.word(Class::T, number).map(i64::from),
+        Key::Timer(number, TimerPart::Value) => machine.word(Class::T, number).map(i64::from),
         Key::Counter(number, CounterPart::Done) => machine.bit(Class::C, number).map(i64::from),
-        Key::Counter(number, _) => {
+        Key::Counter(number, CounterPart::Value) => {
             let wide = machine.counter32(number).map(i64::from);
             wide.or_else(|| machine.word(Class::C, number).map(i64::from))
         }

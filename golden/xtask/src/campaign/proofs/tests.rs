@@ -42,6 +42,22 @@ fn found(text: &str, property: &Property) -> Option<Run> {
     Some(run)
 }
 
+/// A latched timer begins near the end of its range: what it shows is not the time since its last whole unit.
+#[test]
+fn files_agree_where_a_latched_timer_begins_late() {
+    let extent = Extent {
+        seed: 3_003_687,
+        programs: 1,
+        jobs: 1,
+        time: None,
+        others: false,
+    };
+    let results = all(extent);
+    assert!(results.wrong.is_empty(), "{}", results.wrong.join("\n\n"));
+    let asked: u64 = results.counts.iter().map(|counts| counts.asked).sum();
+    assert!(asked > 0, "{}", results.text());
+}
+
 /// A slice of a campaign.
 #[test]
 fn answers_about_random_programs_withstand_attacks() {
