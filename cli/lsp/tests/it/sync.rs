@@ -72,6 +72,27 @@ fn settings_of_the_folder_apply_also_unsaved() {
 }
 
 #[test]
+fn findings_are_placed_in_the_files_of_a_program() {
+    let settings = "[project]\nprogram = [\"Main.st\", \"Twice.st\"]\n";
+    let main = "PROGRAM Main\nD1 := Twice(D0);\nEND_PROGRAM\n";
+    let twice = "FUNCTION Twice : INT\nVAR_INPUT x : INT; END_VAR\nTwice := y * 2;\nEND_FUNCTION\n";
+    let mut client = Client::new(&[
+        ("rungc.toml", settings.as_bytes()),
+        ("Main.st", main.as_bytes()),
+        ("Twice.st", twice.as_bytes()),
+    ]);
+    client.open("Twice.st", twice);
+    let own = client.findings("Twice.st");
+    assert!(own.starts_with("2:9-2:10 1 E0201: nothing"), "{own}");
+    client.open("Main.st", main);
+    let other = client.findings("Main.st");
+    assert!(
+        other.starts_with("0:0-0:0 1 E0201: Twice.st:3: nothing"),
+        "{other}"
+    );
+}
+
+#[test]
 fn mistakes_in_closed_settings_are_shown_there() {
     let mut client = Client::new(&[("rungc.toml", "[检查]\n".as_bytes()), ("a.il", b"")]);
     client.open("a.il", "LD X000\nOUT Y000\nEND\n");
