@@ -276,6 +276,9 @@ pub const FOREVER_MS: u32 = 4_000_000;
 /// Initial effort for each way, and its factor in the next round.
 const ROUND: (u64, u64) = (500, 4);
 
+/// The most effort for finding bits that never change or are always equal.
+const SIMPLIFIED: u64 = 1000;
+
 /// Part of what is left for runs on the interpreter where nothing else can decide: an eighth, since a run that is not
 /// found soon is seldom found later.
 const LAST: u64 = 8;
@@ -313,7 +316,7 @@ pub(crate) fn search(
     limit: &Limit,
 ) -> Answer {
     let mut scans = ScanByScan::new(question, world, posed, limit);
-    let mut as_it_is = Attempt::new(|| posed.clone().simplified(&limit.part(ROUND.0)));
+    let mut as_it_is = Attempt::new(|| posed.clone().simplified(&limit.part(SIMPLIFIED)));
     if let Some(answer) = scans.search(EARLY, limit) {
         return answer;
     }

@@ -17,6 +17,17 @@ pub struct Gap {
     pub what: String,
 }
 
+impl Gap {
+    /// What no network causes.
+    fn apart(what: &str) -> Self {
+        Gap {
+            step: None,
+            is_instruction: false,
+            what: what.to_string(),
+        }
+    }
+}
+
 /// Name of devices in which pulse outputs show what they do, which are any value in each scan.
 const SHOWN: &str = "special devices of pulse outputs";
 
@@ -27,16 +38,11 @@ const NAMED: usize = 4;
 pub(crate) fn gaps_of(system: &System, encoder: &Encoder) -> BTreeSet<Gap> {
     let (mut gaps, mut by_events, mut received) =
         (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
-    let apart = |what: String| Gap {
-        step: None,
-        is_instruction: false,
-        what,
-    };
     for (_, input) in &system.inputs {
         match *input {
             Input::Gap(number) => gaps.extend(encoder.gaps.get(number).cloned()),
             Input::Shown(Writer::Pulses, ..) => {
-                gaps.insert(apart(SHOWN.to_string()));
+                gaps.insert(Gap::apart(SHOWN));
             }
             Input::Shown(Writer::Events, key, _) => {
                 by_events.insert(device_of(key));
@@ -54,7 +60,7 @@ pub(crate) fn gaps_of(system: &System, encoder: &Encoder) -> BTreeSet<Gap> {
     ] {
         if !devices.is_empty() {
             let names = names_of(devices.into_iter().flatten());
-            gaps.insert(apart(format!("{what}{names}")));
+            gaps.insert(Gap::apart(&format!("{what}{names}")));
         }
     }
     gaps
@@ -97,6 +103,11 @@ impl Encoder<'_> {
             is_instruction: false,
             what: what.to_string(),
         })
+    }
+
+    /// The number of what no network causes.
+    pub(super) fn gap_apart(&mut self, what: &str) -> usize {
+        self.gap_of(Gap::apart(what))
     }
 
     fn gap_of(&mut self, gap: Gap) -> usize {

@@ -195,8 +195,13 @@ impl Encoder<'_> {
         signature: Signature,
         to: &[Lit],
     ) -> Bits {
+        // Events belong to no network, even where one looks at what they do.
+        let gap = match signature {
+            Signature::Event(_) => self.gap_apart(what),
+            _ => self.gap(what),
+        };
         if !self.is_compared() {
-            return self.fresh(width, what);
+            return self.fresh_of(width, gap);
         }
         let signature = match signature {
             Signature::Event(key) => Signature::Event(self.event_name(key)),
@@ -209,7 +214,7 @@ impl Encoder<'_> {
             // The input belongs to both programs, and is in the list of the first.
             return bits;
         }
-        let bits = self.fresh(width, what);
+        let bits = self.fresh_of(width, gap);
         if let Some(shared) = &mut self.shared {
             shared.results.insert(application, bits.clone());
         }

@@ -1,7 +1,7 @@
 //! Ways to answer a question that needs many scans, in rounds.
 
 use super::scans::Hunt;
-use super::{Answer, FOREVER_MS, INDUCTION, PLAIN, Question, Verdict, shown};
+use super::{Answer, FOREVER_MS, INDUCTION, PLAIN, Question, SIMPLIFIED, Verdict, shown};
 use crate::effort::Limit;
 use crate::model::World;
 use crate::pdr;
@@ -14,6 +14,10 @@ use std::cell::LazyCell;
 
 /// Effort for runs by chance in a round, as a multiple of that for another way.
 const BY_CHANCE: u64 = 2;
+
+/// Effort for an invariant without the times of timers, in halves of that for another way: the smallest system shows
+/// most.
+const ABSTRACTED: u64 = 3;
 
 /// Part of the effort for runs by chance that those on the interpreter take where the logic leaves something open: a
 /// half. It comes off the runs of the logic, so that proofs have what they had.
@@ -94,10 +98,11 @@ impl<'a> Ways<'a> {
         limit: &'a Limit,
     ) -> Self {
         let abstracted = || {
-            question.posed(&World {
+            let posed = question.posed(&World {
                 any_preset: true,
                 ..world.clone()
-            })
+            });
+            posed.simplified(&limit.part(SIMPLIFIED))
         };
         let free_scan_times = || {
             question.posed(&World {
@@ -143,7 +148,8 @@ impl<'a> Ways<'a> {
             return Some(found.into());
         }
         let abstracted = self.timers_abstracted.as_mut();
-        if let Some(proof) = abstracted.and_then(|attempt| attempt.invariant(effort, limit)) {
+        let more = effort.saturating_mul(ABSTRACTED) / 2;
+        if let Some(proof) = abstracted.and_then(|attempt| attempt.invariant(more, limit)) {
             return Some(proof.into());
         }
         if let Some(found) = self.with_free_scan_times(effort) {
