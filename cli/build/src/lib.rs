@@ -78,7 +78,9 @@ fn compile_into(path: &Path, folder: &Path, options: &Options) -> Result<Vec<Str
     let project = Project::open_with(path, options)?;
     let settings = project.settings().map(|settings| settings.path.as_path());
     let read = [Some(project.file()), settings];
-    let read = read.into_iter().flatten();
+    let parts = project.source().source.parts().iter();
+    let parts = parts.map(|part| Path::new(&part.path));
+    let read = read.into_iter().flatten().chain(parts);
     let mut lines: Vec<String> = read
         .map(|file| format!("cargo::rerun-if-changed={}", file.display()))
         .collect();

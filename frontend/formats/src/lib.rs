@@ -165,6 +165,14 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> 
     if let Some((name, files)) = of_several(path, options) {
         return structured::read_files(&name, &files, options);
     }
+    let is_structured = path.is_file() && structured::is_named(&path.to_string_lossy());
+    if let Some(joined) = is_structured
+        .then(|| structured::program::of(path, options))
+        .flatten()
+    {
+        let root = joined.files[0].file_name().unwrap_or_default();
+        return structured::read_joined(&root.to_string_lossy(), &joined, options);
+    }
     let inside = if path.is_dir() {
         Some(main_file(path)?)
     } else {

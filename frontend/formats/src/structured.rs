@@ -1,6 +1,11 @@
 //! Recognition of structured text. Its instructions depend on the model, so they come when it is compiled for one.
 
+mod contents;
+pub(crate) mod program;
+
 use crate::{MAX_SIZE, Read, ReadError, ReadOptions, encoding};
+use contents::Contents;
+use program::Joined;
 use rungc_syntax::{Program, Source, SourceKind};
 use std::path::{Path, PathBuf};
 use walkdir::WalkDir;
@@ -50,6 +55,18 @@ fn begins(text: &str) -> bool {
 /// A program whose instructions are not there yet.
 pub(crate) fn read(name: &str, text: &str) -> Read {
     read_source(Source::new(name, text))
+}
+
+/// A program of a file and those that define what it uses.
+pub(crate) fn read_joined(
+    name: &str,
+    joined: &Joined,
+    options: &ReadOptions,
+) -> Result<Read, ReadError> {
+    let mut read = read_files(name, &joined.files, options)?;
+    let notes = joined.notes(&read.program.source);
+    read.diagnostics.extend(notes);
+    Ok(read)
 }
 
 /// A program of several files.
@@ -138,23 +155,17 @@ enum Kind {
 fn kind(path: &Path) -> Option<Kind> {
     let bytes = std::fs::read(path).ok()?;
     let (text, _) = encoding::decode(&bytes, None)?;
-    let (mut is_program, mut is_part) = (false, false);
-    let mut rest = text.as_str();
-    while !rest.is_empty() {
-        let (code, after) = rest.split_once("(*").unwrap_or((rest, ""));
-        for word in code.split(|c: char| !c.is_alphanumeric() && c != '_') {
-            if word.eq_ignore_ascii_case("CONFIGURATION") {
-                return Some(Kind::Tasks);
-            }
-            is_program |= word.eq_ignore_ascii_case("PROGRAM");
-            is_part |= FIRST.iter().any(|first| word.eq_ignore_ascii_case(first));
-        }
-        rest = after.split_once("*)").map_or("", |(_, after)| after);
-    }
-    match (is_program, is_part) {
-        (true, _) => Some(Kind::Program),
-        (false, true) => Some(Kind::Part),
-        (false, false) => None,
+    let Contents {
+        programs,
+        defined,
+        has_tasks,
+        ..
+    } = Contents::of(&text);
+    match (has_tasks, !programs.is_empty(), !defined.is_empty()) {
+        (true, ..) => Some(Kind::Tasks),
+        (_, true, _) => Some(Kind::Program),
+        (_, _, true) => Some(Kind::Part),
+        _ => None,
     }
 }
 

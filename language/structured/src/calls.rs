@@ -4,13 +4,14 @@ use crate::ast::{Arg, Expr, ExprKind, Op};
 use crate::conditions::Cond;
 use crate::emit::{Compiler, Made, fail};
 use crate::fold;
+use crate::functions::ELSEWHERE;
 use crate::labels::Stored;
 use crate::literal::Const;
 use crate::types::Ty;
 use crate::values::changes_index;
 use rungc_catalogue::{Drive, Found, Param, Role, Shape};
 use rungc_syntax::diag::{counted, did_you_mean};
-use rungc_syntax::{Diagnostic, Operand, OperandKind, codes};
+use rungc_syntax::{Diagnostic, Operand, OperandKind, codes, phrase};
 use std::rc::Rc;
 
 impl Compiler<'_> {
@@ -403,10 +404,10 @@ fn unknown(name: &str, of: &Expr) -> Diagnostic {
         .flat_map(|inst| inst.spellings().into_iter().map(|(spelling, _)| spelling))
         .filter(|name| is_instruction(name))
         .collect();
-    let what = format!("`{name}` is not an instruction that can be called");
+    let what = phrase!("nothing defines `{name}`, which is called here", name);
     let error = codes::ST_UNKNOWN_NAME.at(of.span, what);
     match did_you_mean(&upper, spellings.iter().map(String::as_str)) {
-        Some(meant) if meant != upper => error.help(format!("did you mean `{meant}`?")),
-        _ => error.help("the page on structured text lists functions and blocks"),
+        Some(meant) if meant != upper => error.help(phrase!("did you mean `{meant}`?", meant)),
+        _ => error.help(ELSEWHERE),
     }
 }

@@ -6,7 +6,7 @@ use crate::convert;
 use crate::emit::{Compiler, Made, both, fail};
 use crate::literal::Const;
 use crate::types::Ty;
-use rungc_syntax::{Device, Diagnostic, Operand, OperandKind, codes, diag::did_you_mean};
+use rungc_syntax::{Device, Diagnostic, Operand, OperandKind, codes, diag::did_you_mean, phrase};
 
 /// Function of the library.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -66,17 +66,18 @@ pub(crate) fn find(name: &str) -> Option<Function> {
     found.map(|(_, function)| *function)
 }
 
+/// What to do where a text does not define a unit.
+pub(crate) const ELSEWHERE: &str = "define it here, in a file of the same folder, or in one that `[project] program` in rungc.toml lists";
+
 /// A function of an unknown name.
 pub(crate) fn unknown(name: &str, of: &Expr) -> Diagnostic {
-    let error = codes::ST_UNSUPPORTED.at(
-        of.span,
-        format!("the function `{name}` is not compiled yet"),
-    );
+    let what = phrase!("nothing defines the function `{name}`", name);
+    let error = codes::ST_UNKNOWN_NAME.at(of.span, what);
     let names = FUNCTIONS.iter().map(|(name, _)| *name);
     let names = names.chain(convert::names());
     match did_you_mean(&name.to_uppercase(), names) {
-        Some(meant) => error.help(format!("did you mean `{meant}`?")),
-        None => error,
+        Some(meant) => error.help(phrase!("did you mean `{meant}`?", meant)),
+        None => error.help(ELSEWHERE),
     }
 }
 

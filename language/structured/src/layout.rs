@@ -3,10 +3,11 @@
 
 use crate::ast::{Structure as Declared, TypeName, Variable};
 use crate::fold;
+use crate::functions::ELSEWHERE;
 use crate::labels::{Labels, initial_value};
 use crate::literal::Const;
 use crate::types::Ty;
-use rungc_syntax::{Diagnostic, codes};
+use rungc_syntax::{Diagnostic, codes, phrase};
 use smol_str::SmolStr;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -361,13 +362,23 @@ impl Labels {
 
 fn not_a_type(of: &TypeName) -> Diagnostic {
     let name = of.name.text.as_str();
-    let what = match name.to_ascii_uppercase().as_str() {
-        "STRING" | "WSTRING" => "labels of type STRING are not compiled yet".to_owned(),
-        "SINT" | "LINT" | "USINT" | "UINT" | "UDINT" | "LREAL" | "BYTE" | "LWORD" | "DATE" => {
-            format!("FX has no type {name}")
-        }
-        _ => format!("`{name}` is not a type, a structure or a function block"),
+    let (code, what) = match name.to_ascii_uppercase().as_str() {
+        "STRING" | "WSTRING" => (
+            &codes::ST_UNSUPPORTED,
+            "labels of type STRING are not compiled yet".into(),
+        ),
+        "SINT" | "LINT" | "USINT" | "UINT" | "UDINT" | "LREAL" | "BYTE" | "LWORD" | "DATE" => (
+            &codes::ST_UNSUPPORTED,
+            phrase!("FX has no type {name}", name),
+        ),
+        _ => (
+            &codes::ST_UNKNOWN_NAME,
+            phrase!("nothing defines the type `{name}`", name),
+        ),
     };
-    let error = codes::ST_UNSUPPORTED.at(of.name.span, what);
-    error.help("types are BOOL, INT, WORD, DINT, DWORD, REAL, TIME, TIMER and COUNTER")
+    let error = code.at(of.name.span, what);
+    error.help(match code.id == codes::ST_UNKNOWN_NAME.id {
+        true => ELSEWHERE,
+        false => "types are BOOL, INT, WORD, DINT, DWORD, REAL, TIME, TIMER and COUNTER",
+    })
 }

@@ -203,7 +203,9 @@ fn compiled(
     for last in ["NOP", "END"] {
         compiler.push(last, []);
     }
-    compiler.uncalled();
+    if !has_errors(found) && !has_errors(&compiler.found) {
+        compiler.uncalled();
+    }
     compiler.check_instances();
     compiler.check_registers();
     let (instrs, more) = (compiler.instrs, compiler.found);

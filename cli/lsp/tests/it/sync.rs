@@ -93,6 +93,31 @@ fn findings_are_placed_in_the_files_of_a_program() {
 }
 
 #[test]
+fn an_open_file_is_checked_with_those_of_its_folder() {
+    let main = "PROGRAM Main\nD1 := Twice(D0);\nEND_PROGRAM\n";
+    let twice = "FUNCTION Twice : INT\nVAR_INPUT x : INT; END_VAR\nTwice := x * 2;\nEND_FUNCTION\n";
+    let mut client = Client::new(&[("Main.st", main.as_bytes()), ("Twice.st", twice.as_bytes())]);
+    client.open("Main.st", main);
+    let found = client.findings("Main.st");
+    assert!(
+        found.starts_with("1:6-1:11 3 N0240: this file is compiled with `Twice.st`"),
+        "{found}"
+    );
+    // What is not saved counts.
+    client.open("Twice.st", &twice.replace("x * 2", "y"));
+    let part = client.findings("Twice.st");
+    assert!(
+        part.contains("2:9-2:10 1 E0201: nothing declares `y`"),
+        "{part}"
+    );
+    assert!(
+        client
+            .findings("Main.st")
+            .contains("E0201: Twice.st:3: nothing")
+    );
+}
+
+#[test]
 fn mistakes_in_closed_settings_are_shown_there() {
     let mut client = Client::new(&[("rungc.toml", "[检查]\n".as_bytes()), ("a.il", b"")]);
     client.open("a.il", "LD X000\nOUT Y000\nEND\n");

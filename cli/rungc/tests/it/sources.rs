@@ -285,3 +285,93 @@ fn a_written_project_is_checked() {
     let checked = rungc(path, &["check", "out"]);
     assert!(checked.status.success(), "{}", text(&checked.stderr));
 }
+
+/// Files of a folder without settings: `Main.st` needs all but `Other.st` and `Old.st`.
+const FOLDER: [(&str, &str); 6] = [
+    (
+        "Main.st",
+        "PROGRAM Main\nVAR Press : Valve; END_VAR\nPress(Open := Start, Coil => Y0);\nD1 := Twice(D0);\nEND_PROGRAM\n",
+    ),
+    (
+        "Valve.st",
+        "FUNCTION_BLOCK Valve\nVAR_INPUT Open : BOOL; END_VAR\nVAR_OUTPUT Coil : BOOL; END_VAR\n\
+         Coil := Open;\nEND_FUNCTION_BLOCK\n",
+    ),
+    (
+        "Twice.st",
+        "FUNCTION Twice : INT\nVAR_INPUT N : INT; END_VAR\nTwice := N * Factor;\nEND_FUNCTION\n",
+    ),
+    (
+        "labels/Global.st",
+        "VAR_GLOBAL Start AT X0 : BOOL; END_VAR\nVAR_GLOBAL CONSTANT Factor : INT := 2; END_VAR\n",
+    ),
+    (
+        "Other.st",
+        "PROGRAM Other\nY7 := X7;\nEND_PROGRAM\nFUNCTION Spare : INT\nSpare := 1;\nEND_FUNCTION\n",
+    ),
+    (
+        "Old.st",
+        "FUNCTION Gone : INT\nGone := Lost;\nEND_FUNCTION\n",
+    ),
+];
+
+#[test]
+fn a_file_is_compiled_with_those_that_define_what_it_uses() {
+    let folder = folder(&[]);
+    let path = folder.path();
+    fs::create_dir(path.join("labels")).unwrap();
+    for (name, contents) in FOLDER {
+        fs::write(path.join(name), contents).unwrap();
+    }
+    let list = rungc(path, &["convert", "Main.st", "--to", "il"]);
+    let list = text(&list.stdout);
+    assert!(
+        list.contains("LD X000\nOUT Y000\n") && list.contains("MUL D"),
+        "{list}"
+    );
+    assert!(!list.contains("Y007"), "{list}");
+    let checked = rungc(path, &["check", "Main.st"]);
+    assert!(checked.status.success());
+    let shown = text(&checked.stderr);
+    let note = shown.split("    Checked").next().unwrap_or_default();
+    insta::assert_snapshot!(note);
+    // A file without a program is checked as a part of the one that needs it; a program by itself.
+    let part = rungc(path, &["check", "Twice.st"]);
+    let part = text(&part.stderr);
+    assert!(part.contains("as a part of `Main.st`"), "{part}");
+    let other = rungc(path, &["check", "Other.st", "--format", "json"]);
+    let other = text(&other.stdout);
+    assert!(
+        !other.contains("N0240") && other.contains("\"errors\": 0"),
+        "{other}"
+    );
+    let old = rungc(path, &["check", "Old.st"]);
+    assert!(text(&old.stderr).contains("this text holds no PROGRAM"));
+    // The tasks of a configuration belong to each of its programs.
+    let tasks = "CONFIGURATION Line\nTASK T1(PRIORITY := 1);\nPROGRAM Main WITH T1;\nPROGRAM Other WITH T1 : Other;\n\
+                 END_CONFIGURATION\n";
+    fs::write(path.join("Tasks.st"), tasks).unwrap();
+    for file in ["Main.st", "Other.st"] {
+        let list = rungc(path, &["convert", file, "--to", "il"]);
+        let list = text(&list.stdout);
+        assert!(
+            list.contains("Y000") && list.contains("Y007"),
+            "{file}: {list}"
+        );
+    }
+}
+
+#[test]
+fn what_no_file_defines_is_named() {
+    let folder = folder(&[]);
+    let path = folder.path();
+    let main = "PROGRAM Main\nVAR a : Axis; END_VAR\nD1 := Twice(D0) + Spare();\nHoist_it(D0);\nEND_PROGRAM\n";
+    fs::write(path.join("Main.st"), main).unwrap();
+    fs::write(path.join("Other.st"), FOLDER[4].1).unwrap();
+    let twice = "FUNCTION Twice : INT\nVAR_INPUT N : INT; END_VAR\nTwice := N + N;\nEND_FUNCTION\n";
+    for name in ["A.st", "B.st"] {
+        fs::write(path.join(name), twice).unwrap();
+    }
+    let checked = rungc(path, &["check", "Main.st"]);
+    insta::assert_snapshot!(text(&checked.stderr));
+}

@@ -96,4 +96,10 @@ super::codes! {
     "An index of an array that is not constant is computed in Z0, and in V0 if it has 32 bits. A value that the program keeps there is lost.",
     wrong: "PROGRAM Main\nVAR\n    Values AT D100 : ARRAY [0..9] OF INT;\nEND_VAR\nZ0 := D0;\nD1 := Values[D2];\nD3 := D200Z0;\nEND_PROGRAM\n",
     right: "PROGRAM Main\nVAR\n    Values AT D100 : ARRAY [0..9] OF INT;\nEND_VAR\nZ1 := D0;\nD1 := Values[D2];\nD3 := D200Z1;\nEND_PROGRAM\n";
+
+    ST_FILES = "N0240" "st-files" Note None,
+    "files that are compiled as one program",
+    "A file with a PROGRAM that uses functions, function blocks, data types or global labels of other files in its folder is compiled with these files, and with the CONFIGURATION that runs it. A file without a PROGRAM is compiled as a part of the first program that needs it. Other files of the folder are left out, and so are files with a PROGRAM of their own, unless the CONFIGURATION names it. `[project] program` in rungc.toml lists the files of a program in place of this.",
+    wrong: "",
+    right: "";
 }

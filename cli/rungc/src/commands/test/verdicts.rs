@@ -128,5 +128,9 @@ fn content(file: &TestFile, machine: Option<&Path>) -> io::Result<u64> {
             }
         }
     }
+    // A program may have more files than the one that is named.
+    for case in &file.cases {
+        case.program.text().hash(&mut hasher);
+    }
     Ok(hasher.finish())
 }
