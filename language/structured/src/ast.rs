@@ -118,6 +118,8 @@ pub(crate) struct TypeName {
     pub name: Name,
     /// First and last index of each dimension of an array.
     pub bounds: Vec<(Expr, Expr)>,
+    /// Length of a STRING, where it is stated.
+    pub length: Option<Name>,
     pub span: Span,
 }
 

@@ -248,6 +248,9 @@ impl Compiler<'_> {
     fn comparison(&mut self, op: Op, left: &Expr, right: &Expr) -> Made<Cond> {
         let (a, b) = both(self.ty(left), self.ty(right))?;
         let ty = a.common(b).unwrap_or(a);
+        if ty.is_text() {
+            return self.compared_texts(op, left, right);
+        }
         let ty = if ty == Ty::Integer { Ty::Int } else { ty };
         let ty = if ty == Ty::Fraction { Ty::Real } else { ty };
         let (a, b) = both(self.kept_operand(left, ty), self.kept_operand(right, ty))?;

@@ -168,7 +168,7 @@ impl Compiler<'_> {
         match words {
             0 => self.taken(DeviceClass::M, 1),
             // All begin at the same places, so that none lies within the result of another.
-            _ if self.supply.is_ample() => self.taken(DeviceClass::D, SLOT),
+            words if words <= SLOT && self.supply.is_ample() => self.taken(DeviceClass::D, SLOT),
             words => self.taken(DeviceClass::D, words),
         }
     }
@@ -194,6 +194,7 @@ impl Compiler<'_> {
     /// The mnemonic of an operation, by the type of its values.
     pub(crate) fn sized(name: &str, ty: Ty) -> String {
         match (name, ty) {
+            ("MOV", Ty::Text(_)) => "$MOV".to_owned(),
             ("WAND" | "WOR" | "WXOR", ty) if ty.is_wide() => name.replacen('W', "D", 1),
             (name, Ty::Real) => format!("DE{name}"),
             (name, ty) if ty.is_wide() => format!("D{name}"),

@@ -5,6 +5,7 @@ use crate::conditions::Cond;
 use crate::convert;
 use crate::emit::{Compiler, Made, both, fail};
 use crate::literal::Const;
+use crate::texts;
 use crate::types::Ty;
 use rungc_syntax::{Device, Diagnostic, Operand, OperandKind, codes, diag::did_you_mean, phrase};
 
@@ -74,7 +75,7 @@ pub(crate) fn unknown(name: &str, of: &Expr) -> Diagnostic {
     let what = phrase!("nothing defines the function `{name}`", name);
     let error = codes::ST_UNKNOWN_NAME.at(of.span, what);
     let names = FUNCTIONS.iter().map(|(name, _)| *name);
-    let names = names.chain(convert::names());
+    let names = names.chain(convert::names()).chain(texts::names());
     match did_you_mean(&name.to_uppercase(), names) {
         Some(meant) => error.help(phrase!("did you mean `{meant}`?", meant)),
         None => error.help(ELSEWHERE),
@@ -123,7 +124,8 @@ impl Compiler<'_> {
             Function::OfReal(_) => ty == Ty::Real,
             Function::Absolute => !ty.is_unsigned() && ty != Ty::Bool,
             Function::Shift(_) => ty.is_whole() && !matches!(ty, Ty::Time | Ty::Integer),
-            _ => ty != Ty::Bool,
+            Function::Select | Function::Multiplex => ty != Ty::Bool,
+            _ => ty != Ty::Bool && !ty.is_text(),
         };
         if !suits {
             let what = format!("this function is not compiled for {ty}");

@@ -7,8 +7,9 @@ use crate::literal::{Const, Literal, range};
 use crate::ranges::{Free, Ranges};
 use crate::stated::{stated, stated_members, suits};
 use crate::types::{Fit, Ty};
-use crate::{Known, blocks, calls, convert, fold};
+use crate::{Known, blocks, calls, convert, fold, texts};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, OperandKind, Span, codes};
+use smol_str::SmolStr;
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -23,6 +24,8 @@ pub(crate) enum Stored {
     /// Devices of an array or structure.
     Area(Area),
     Constant(Const),
+    /// Constant text.
+    Text(SmolStr),
     /// Instance of a function block.
     Instance(Rc<Instance>),
     /// Array of instances, each of which is a label with its index in its name: `Valves[2]`.
@@ -439,6 +442,9 @@ impl Labels {
                 .help("write `:= VALUE`")
                 .into());
         };
+        if let (Ty::Text(most), ExprKind::Text(text)) = (ty, &initial.kind) {
+            return texts::constant(text, most, initial.span).map(Stored::Text);
+        }
         let Some((value, of)) = fold::constant(self, initial) else {
             let what = "this is not a constant";
             return Err(codes::ST_LITERAL.at(initial.span, what).into());
@@ -508,6 +514,7 @@ pub(crate) fn initial_value(labels: &Labels, initial: &Expr) -> Option<Diagnosti
         _ if initial.kind == ExprKind::Initial(true) => true,
         Some((Const::Int(0) | Const::Bool(false), _)) => true,
         Some((Const::Real(value), _)) => value == 0.0,
+        _ if matches!(&initial.kind, ExprKind::Text(text) if text.is_empty()) => true,
         _ => false,
     };
     let what = "GX Works2 compiles no initial values for FX";

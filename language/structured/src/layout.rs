@@ -4,8 +4,9 @@
 use crate::ast::{Structure as Declared, TypeName, Variable};
 use crate::fold;
 use crate::functions::ELSEWHERE;
-use crate::labels::{Labels, initial_value};
-use crate::literal::Const;
+use crate::labels::{Labels, Stored, initial_value};
+use crate::literal::{self, Const};
+use crate::texts;
 use crate::types::Ty;
 use rungc_syntax::{Diagnostic, codes, phrase};
 use smol_str::SmolStr;
@@ -322,6 +323,7 @@ impl Labels {
     ) -> Option<Type> {
         let name = of.name.text.as_str();
         let mut ty = match (Ty::named(name), structures.get(name)) {
+            _ if name.eq_ignore_ascii_case("STRING") => Type::Plain(self.text_type(of, found)?),
             (Some(ty), _) => Type::Plain(ty),
             (None, Some(structure)) => Type::Structure(structure?),
             (None, None) => {
@@ -334,6 +336,30 @@ impl Labels {
             ty = Type::Array(Rc::new(Array { first, last, of }));
         }
         Some(ty)
+    }
+
+    /// The type of a STRING with the length that a declaration states.
+    fn text_type(&self, of: &TypeName, found: &mut Vec<Diagnostic>) -> Option<Ty> {
+        let Some(length) = &of.length else {
+            return Some(Ty::Text(texts::USUAL));
+        };
+        let stated = match literal::number(&length.text) {
+            Some((Const::Int(value), _)) => Some(value),
+            _ => match self.get(&length.text).map(|label| &label.stored) {
+                Some(Stored::Constant(Const::Int(value))) => Some(*value),
+                _ => None,
+            },
+        };
+        let stated = stated.and_then(|value| u16::try_from(value).ok());
+        let Some(stated) = stated.filter(|length| (1..=texts::LONGEST).contains(length)) else {
+            let what = phrase!(
+                "the length of a STRING is 1 to {most}",
+                most = texts::LONGEST
+            );
+            found.push(codes::ST_LITERAL.at(length.span, what));
+            return None;
+        };
+        Some(Ty::Text(stated))
     }
 
     /// First and last index of each dimension of an array.
@@ -363,11 +389,8 @@ impl Labels {
 fn not_a_type(of: &TypeName) -> Diagnostic {
     let name = of.name.text.as_str();
     let (code, what) = match name.to_ascii_uppercase().as_str() {
-        "STRING" | "WSTRING" => (
-            &codes::ST_UNSUPPORTED,
-            "labels of type STRING are not compiled yet".into(),
-        ),
-        "SINT" | "LINT" | "USINT" | "UINT" | "UDINT" | "LREAL" | "BYTE" | "LWORD" | "DATE" => (
+        "WSTRING" | "SINT" | "LINT" | "USINT" | "UINT" | "UDINT" | "LREAL" | "BYTE" | "LWORD"
+        | "DATE" => (
             &codes::ST_UNSUPPORTED,
             phrase!("FX has no type {name}", name),
         ),
@@ -379,6 +402,6 @@ fn not_a_type(of: &TypeName) -> Diagnostic {
     let error = code.at(of.name.span, what);
     error.help(match code.id == codes::ST_UNKNOWN_NAME.id {
         true => ELSEWHERE,
-        false => "types are BOOL, INT, WORD, DINT, DWORD, REAL, TIME, TIMER and COUNTER",
+        false => "types are BOOL, INT, WORD, DINT, DWORD, REAL, TIME, STRING, TIMER and COUNTER",
     })
 }

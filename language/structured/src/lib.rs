@@ -26,6 +26,7 @@ mod runs;
 mod shape;
 mod stated;
 mod statements;
+mod texts;
 mod token;
 mod types;
 mod values;
@@ -203,9 +204,7 @@ fn compiled(
     for last in ["NOP", "END"] {
         compiler.push(last, []);
     }
-    if !has_errors(found) && !has_errors(&compiler.found) {
-        compiler.uncalled();
-    }
+    compiler.uncalled(found);
     compiler.check_instances();
     compiler.check_registers();
     let (instrs, more) = (compiler.instrs, compiler.found);

@@ -209,7 +209,7 @@ impl Compiler<'_> {
                 At::Operand(operand.clone())
             }
             Stored::Area(area) => At::Area(area.clone()),
-            Stored::Constant(_) => return Ok(None),
+            Stored::Constant(_) | Stored::Text(_) => return Ok(None),
             Stored::Instance(_) => {
                 let what = format!("`{}` is an instance of a function block", label.name);
                 let error = codes::ST_TYPE.at(expr.span, what);

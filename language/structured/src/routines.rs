@@ -6,7 +6,7 @@ use crate::emit::{Compiler, Made, fail};
 use crate::labels::{Instance, Label, Labels, Role, Stored};
 use crate::types::{Fit, Ty};
 use crate::values::changes_index;
-use rungc_syntax::{Device, Operand, OperandKind, Remarks, Span, codes};
+use rungc_syntax::{Device, Diagnostic, Operand, OperandKind, Remarks, Span, codes, phrase};
 use smol_str::SmolStr;
 use std::rc::Rc;
 
@@ -280,15 +280,19 @@ impl Compiler<'_> {
     }
 
     /// Examines the functions that nothing calls.
-    pub(crate) fn uncalled(&mut self) {
+    pub(crate) fn uncalled(&mut self, found: &[Diagnostic]) {
+        // A statement with a mistake may be meant to call it.
+        let is_certain = !crate::has_errors(found) && !crate::has_errors(&self.found);
         for function in self.functions.values().cloned().collect::<Vec<_>>() {
             let mut routines = self.routines.iter();
             if routines.any(|one| Rc::ptr_eq(&one.instance, &function)) {
                 continue;
             }
             let name = &self.units[function.unit].name;
-            let what = format!("nothing calls `{}`", name.text);
-            self.found.push(codes::ST_UNUSED.at(name.span, what));
+            if is_certain {
+                let what = phrase!("nothing calls `{name}`", name = name.text);
+                self.found.push(codes::ST_UNUSED.at(name.span, what));
+            }
             let (instrs, routines) = (self.instrs.len(), self.routines.len());
             let Some(pointer) = self.supply.pointer() else {
                 return;

@@ -5,7 +5,7 @@ use crate::device::{self, Place};
 use crate::labels::{Area, Stored};
 use crate::layout::{Structure, Type};
 use crate::types::Ty;
-use rungc_syntax::{Device, Diagnostic, OperandKind, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, OperandKind, codes};
 use std::collections::BTreeMap;
 
 /// The device that a declaration states.
@@ -46,6 +46,10 @@ pub(crate) fn suits(
     let suits = match ty {
         Ty::Bool => of.is_bit(),
         Ty::Timer => of.is_bit() && !is_bit_device,
+        Ty::Text(_) => matches!(
+            operand.device().map(|device| device.class),
+            Some(DeviceClass::D | DeviceClass::R)
+        ),
         _ => !is_bit_device,
     };
     match (&operand, label.plain()) {
@@ -67,6 +71,7 @@ pub(crate) fn suits(
     let help = match ty {
         Ty::Bool => "a BOOL is an X, Y, M, S, or a bit of a word",
         Ty::Timer => "a TIMER is a T, a COUNTER a C",
+        Ty::Text(_) => "a STRING begins at a D or R",
         _ => "a number is a D, R, T, C, or a group of bits such as `K4M0`",
     };
     Err(codes::ST_NO_DEVICE.at(span, what).help(help).into())

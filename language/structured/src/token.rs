@@ -116,7 +116,10 @@ pub(crate) fn tokens(text: &str) -> Vec<Lexeme<'_>> {
         .to_slice()
         .map(Token::Address);
     let quoted = |quote| {
-        let content = any().filter(move |c| *c != quote && *c != '\n').repeated();
+        // `$` begins a character that is written otherwise.
+        let written = just('$').then(any().filter(|c| *c != '\n')).ignored();
+        let plain = any().filter(move |c| *c != quote && *c != '\n').ignored();
+        let content = written.or(plain).repeated();
         content.to_slice().delimited_by(just(quote), just(quote))
     };
     let text_token = choice((quoted('\''), quoted('"'))).map(Token::Text);

@@ -12,6 +12,8 @@ pub(crate) enum Ty {
     Dword,
     Real,
     Time,
+    /// Characters: the most that there can be.
+    Text(u16),
     /// Timer or counter of 16 bits: its contact, or its current value.
     Timer,
     /// Counter of 32 bits: its contact, or its current value.
@@ -59,13 +61,20 @@ impl Ty {
         match self {
             Ty::Bool => 0,
             Ty::Int | Ty::Word | Ty::Timer | Ty::Raw16 | Ty::Integer => 1,
+            // A byte 0 follows.
+            Ty::Text(length) => length as u32 / 2 + 1,
             _ => 2,
         }
     }
 
     /// Returns true for values of 32 bits.
     pub(crate) const fn is_wide(self) -> bool {
-        self.words() == 2
+        self.words() == 2 && !self.is_text()
+    }
+
+    /// Returns true for a text.
+    pub(crate) const fn is_text(self) -> bool {
+        matches!(self, Ty::Text(_))
     }
 
     /// Returns true for what has a contact.
@@ -75,7 +84,7 @@ impl Ty {
 
     /// Returns true for whole numbers.
     pub(crate) const fn is_whole(self) -> bool {
-        !matches!(self, Ty::Bool | Ty::Real | Ty::Fraction)
+        !matches!(self, Ty::Bool | Ty::Real | Ty::Fraction | Ty::Text(_))
     }
 
     /// Returns true for values without a sign.
@@ -93,6 +102,9 @@ impl Ty {
         use Ty::*;
         match (self, place) {
             (from, to) if from == to => Fit::Fits,
+            (Text(from), Text(to)) if from < to => Fit::Fits,
+            (Text(_), Text(_)) => Fit::Loses,
+            (Text(_), _) | (_, Text(_)) => Fit::Unlike,
             (Integer, Bool) | (Fraction, Real) | (Integer, Real) => Fit::Fits,
             (Integer, _) => Fit::Fits,
             (Timer | WideCounter, Bool) => Fit::Fits,
@@ -114,6 +126,9 @@ impl Ty {
         let (a, b) = (self, other);
         if a == b {
             return Some(a);
+        }
+        if let (Ty::Text(a), Ty::Text(b)) = (a, b) {
+            return Some(Ty::Text(a.max(b)));
         }
         // Of a device and a declared type, the declared one says how the value is meant.
         let rank = |ty: Ty| match ty {
@@ -140,15 +155,21 @@ impl Ty {
             Ty::Dword => Some("DWORD"),
             Ty::Real => Some("REAL"),
             Ty::Time => Some("TIME"),
+            Ty::Text(_) => Some("STRING"),
         };
         let function = format!("{}_TO_{}", name(self)?, name(to)?);
-        crate::convert::find(&function).map(|_| function)
+        let is_known = crate::convert::find(&function).is_some();
+        (is_known || crate::texts::find(&function).is_some()).then_some(function)
     }
 }
 
 impl fmt::Display for Ty {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Ty::Text(length) = self {
+            return write!(f, "a STRING({length})");
+        }
         f.write_str(match self {
+            Ty::Text(_) => "a STRING",
             Ty::Bool => "a BOOL",
             Ty::Int => "an INT",
             Ty::Word => "a WORD",

@@ -7,8 +7,9 @@ use crate::fold;
 use crate::functions;
 use crate::labels::value_in;
 use crate::literal::{Const, Literal};
+use crate::texts;
 use crate::types::{Fit, Ty};
-use rungc_syntax::{Device, Operand, OperandKind, codes};
+use rungc_syntax::{Device, Operand, OperandKind, codes, phrase};
 
 impl Compiler<'_> {
     /// The type of an expression.
@@ -16,12 +17,12 @@ impl Compiler<'_> {
         if let Some((_, ty)) = self.constant(expr)? {
             return Ok(ty);
         }
+        if let Some(text) = self.literal_text(expr)? {
+            return Ok(Ty::Text(text.chars().count() as u16));
+        }
         match &expr.kind {
             ExprKind::Number(text) | ExprKind::Typed(text) => {
                 fail(codes::ST_LITERAL.at(expr.span, format!("`{text}` is not a value")))
-            }
-            ExprKind::Text(_) => {
-                fail(codes::ST_UNSUPPORTED.at(expr.span, "texts are not compiled yet"))
             }
             ExprKind::Unread | ExprKind::Initial(_) => Err(Vec::new()),
             ExprKind::Call(of, args) => self.type_of_call(of, args, expr),
@@ -74,6 +75,13 @@ impl Compiler<'_> {
         let Some(ty) = a.common(b).filter(|ty| *ty != Ty::Bool) else {
             return misfit();
         };
+        if ty.is_text() && !matches!(op, Op::Eq | Op::Ne) {
+            let what = phrase!("`{sign}` does not take texts", sign = op.sign());
+            let error = codes::ST_TYPE.at(span, what);
+            return fail(
+                error.help("texts are compared by `=` and `<>`, and joined by `CONCAT(a, b)`"),
+            );
+        }
         if (logic || op == Op::Mod) && !ty.is_whole() {
             return misfit();
         }
@@ -118,6 +126,9 @@ impl Compiler<'_> {
         if let Some(function) = functions::find(name) {
             return self.type_of_function(function, args, expr);
         }
+        if let Some(function) = texts::find(name) {
+            return self.type_of_text(function, args, expr);
+        }
         fail(functions::unknown(name, of))
     }
 
@@ -136,6 +147,10 @@ impl Compiler<'_> {
         let of = self.ty(expr)?;
         let help = |error: rungc_syntax::Diagnostic| match of.conversion(ty) {
             _ if ty == Ty::Bool => error.help("compare it with something, such as `<> 0`"),
+            _ if of.is_text() && ty.is_text() => match ty {
+                Ty::Text(most) => error.help(phrase!("cut it: `LEFT(…, {most})`", most)),
+                _ => error,
+            },
             Some(function) => error.help(format!("write `{function}(…)`")),
             None => error,
         };
@@ -164,6 +179,9 @@ impl Compiler<'_> {
             return kind.map(|kind| Operand { span, kind }).ok_or_else(|| {
                 vec![codes::ST_LITERAL.at(span, "the PLC has no such floating-point number")]
             });
+        }
+        if let Some(text) = self.literal_text(expr)? {
+            return self.text_operand(&text, span);
         }
         if let Some(place) = self.place(expr)? {
             return self.reached(&place, span);
@@ -212,8 +230,14 @@ impl Compiler<'_> {
                 if let Some(conversion) = convert::find(name) {
                     return self.converted(conversion, &args[0].value, target);
                 }
-                match functions::find(name) {
-                    Some(function) => self.function(function, args, ty, target),
+                if let Some(function) = functions::find(name) {
+                    return self.function(function, args, ty, target);
+                }
+                match texts::find(name) {
+                    Some(function) => {
+                        let ty = self.ty(expr)?;
+                        self.text_function((function, ty), args, expr, target)
+                    }
                     None => fail(functions::unknown(name, of)),
                 }
             }
@@ -373,7 +397,9 @@ pub(crate) fn changes_index(expr: &Expr) -> bool {
         ExprKind::Binary(_, left, right) => changes_index(left) || changes_index(right),
         ExprKind::Call(of, args) => {
             let name = of.name().unwrap_or_default();
-            let is_known = convert::find(name).is_some() || functions::find(name).is_some();
+            let is_known = convert::find(name).is_some()
+                || functions::find(name).is_some()
+                || texts::find(name).is_some();
             !is_known || args.iter().any(|arg| changes_index(&arg.value))
         }
         _ => false,

@@ -46,8 +46,8 @@ super::codes! {
     ST_UNSUPPORTED = "E0207" "st-unsupported" Error None,
     "structured text that rungc does not compile",
     "rungc compiles a part of the language; the page on structured text lists it. Compile the program in GX Works2 and open its project (`.gxw`): its compiled list is read whatever the language of the source.",
-    wrong: "PROGRAM Main\nVAR\n    Name : STRING(16);\nEND_VAR\nY0 := X0;\nEND_PROGRAM\n",
-    right: "PROGRAM Main\nY0 := X0;\nEND_PROGRAM\n";
+    wrong: "PROGRAM Main\nD0 := D1 ** 2;\nEND_PROGRAM\n",
+    right: "PROGRAM Main\nD0 := D1 * D1;\nEND_PROGRAM\n";
 
     ST_DECLARED_TWICE = "E0208" "st-declared-twice" Error None,
     "label that is declared twice, or named like a device or keyword",
@@ -97,7 +97,7 @@ super::codes! {
     wrong: "PROGRAM Main\nVAR\n    Values AT D100 : ARRAY [0..9] OF INT;\nEND_VAR\nZ0 := D0;\nD1 := Values[D2];\nD3 := D200Z0;\nEND_PROGRAM\n",
     right: "PROGRAM Main\nVAR\n    Values AT D100 : ARRAY [0..9] OF INT;\nEND_VAR\nZ1 := D0;\nD1 := Values[D2];\nD3 := D200Z1;\nEND_PROGRAM\n";
 
-    ST_FILES = "N0240" "st-files" Note None,
+    ST_FILES = "N0240" "files-of-a-program" Note None,
     "files that are compiled as one program",
     "A file with a PROGRAM that uses functions, function blocks, data types or global labels of other files in its folder is compiled with these files, and with the CONFIGURATION that runs it. A file without a PROGRAM is compiled as a part of the first program that needs it. Other files of the folder are left out, and so are files with a PROGRAM of their own, unless the CONFIGURATION names it. `[project] program` in rungc.toml lists the files of a program in place of this.",
     wrong: "",

@@ -328,18 +328,25 @@ fn type_name<'t>() -> Rule<'t, TypeName> {
     let array = keyword("ARRAY")
         .ignore_then(bounds.delimited_by(sign("["), sign("]")))
         .then_ignore(keyword("OF"));
-    let length = any().filter(|lexeme: &Lexeme| matches!(lexeme.token, Token::Number(_)));
+    let length = any()
+        .filter(|lexeme: &Lexeme| matches!(lexeme.token, Token::Number(_) | Token::Word(_)))
+        .map(|lexeme: Lexeme| Name {
+            text: lexeme.token.text().into(),
+            span: lexeme.span,
+        })
+        .boxed();
     let length = choice((
-        length.delimited_by(sign("("), sign(")")),
+        length.clone().delimited_by(sign("("), sign(")")),
         length.delimited_by(sign("["), sign("]")),
     ));
     array
         .or_not()
         .then(name())
-        .then_ignore(length.or_not())
-        .map_with(|(bounds, name), e| TypeName {
+        .then(length.or_not())
+        .map_with(|((bounds, name), length), e| TypeName {
             name,
             bounds: bounds.unwrap_or_default(),
+            length,
             span: place(e),
         })
         .labelled("a type")

@@ -276,3 +276,47 @@ fn members_have_stated_devices() {
     let words = [0, 10, 11].map(|number| machine.word(Class::D, number).unwrap());
     assert_eq!(words, [7, (100_000 % 65_536) as u16 as i16, 1]);
 }
+
+/// The text in the registers from `first` on.
+fn text_of(machine: &Machine, first: u32) -> String {
+    let words = (first..first + 20).map(|number| machine.word(Class::D, number).expect("a word"));
+    let bytes = words.flat_map(i16::to_le_bytes);
+    let bytes = bytes.take_while(|byte| *byte != 0);
+    bytes.map(char::from).collect()
+}
+
+#[test]
+fn texts_are_in_labels_of_all_kinds() {
+    let text = "TYPE Recipe : STRUCT Name : STRING(9); Count : INT; END_STRUCT; END_TYPE\n\
+         FUNCTION Shown : STRING(20)\nVAR_INPUT What : STRING(9); Number : INT; END_VAR\n\
+         Shown := CONCAT(What, ':', INT_TO_STRING(Number));\nEND_FUNCTION\n\
+         FUNCTION_BLOCK Last\nVAR_INPUT In : STRING(20); END_VAR\nVAR_OUTPUT Out : STRING(20); END_VAR\n\
+         VAR Old : STRING(20); END_VAR\nIF In <> Old THEN Out := Old; Old := In; END_IF;\nEND_FUNCTION_BLOCK\n\
+         PROGRAM P\nVAR CONSTANT Title : STRING(5) := 'Mix'; END_VAR\n\
+         VAR\nAll : ARRAY [0..2] OF Recipe;\nOne : Recipe;\nNames : ARRAY [1..3] OF STRING(4);\n\
+         Line AT D100 : STRING(20);\nOther AT D120 : STRING(20);\nRaw AT D140 : STRING(8);\nBefore : Last;\n\
+         Chosen AT D160 : STRING(9);\nValue AT D180 : REAL;\nEND_VAR\n\
+         One.Name := Title;\nOne.Count := D0;\nAll[D1] := One;\nNames[D2] := 'abc';\n\
+         Line := Shown(All[D1].Name, All[D1].Count + 1);\nBefore(In := Line, Out => Other);\n\
+         Raw := '$R$L\"$$';\nChosen := SEL(Names[3] = 'abc', 'no', Names[3]);\n\
+         Y0 := Title = One.Name AND Names[D2] <> '';\nD3 := FIND(Line, ':');\n\
+         Value := STRING_TO_REAL('1.5') * 2.0;\nD4 := LEN(REAL_TO_STRING(Value));\n\
+         D5 := STRING_TO_INT('12') + STRING_TO_INT('-3') + DINT_TO_INT(STRING_TO_DINT(' 40000') / 1000);\nEND_PROGRAM\n";
+    let module = module(text, ModelId::Fx3u);
+    let mut machine = Machine::new(&module);
+    for (number, value) in [(0, 41), (1, 2), (2, 3)] {
+        machine.set_word(Class::D, number, value);
+    }
+    machine.scan(&mut NoHal, 0, 10_000);
+    assert_eq!(text_of(&machine, 100), "Mix:    42");
+    assert_eq!(text_of(&machine, 120), "");
+    assert_eq!(text_of(&machine, 140), "\r\n\"$");
+    assert_eq!(text_of(&machine, 160), "abc");
+    assert!(machine.output(0));
+    let words = [3, 4, 5].map(|number| machine.word(Class::D, number).unwrap());
+    assert_eq!(words, [4, 12, 49]);
+    machine.set_word(Class::D, 0, -100);
+    machine.scan(&mut NoHal, 10, 10_000);
+    assert_eq!(text_of(&machine, 100), "Mix:-   99");
+    assert_eq!(text_of(&machine, 120), "Mix:    42");
+}

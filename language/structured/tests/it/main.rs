@@ -7,3 +7,4 @@ mod model;
 mod random;
 mod robust;
 mod texts;
+mod texts_by_chance;

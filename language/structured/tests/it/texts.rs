@@ -215,6 +215,31 @@ fn what_is_not_compiled_has_a_reason() {
 }
 
 #[test]
+fn mistakes_with_texts_have_a_reason() {
+    let text = "PROGRAM P\nVAR CONSTANT Long : STRING(3) := 'abcd'; END_VAR\n\
+         VAR\n    s : STRING(5);\n    t : STRING(12);\n    none : STRING(0);\n    most : STRING(256);\n    \
+         bits AT M0 : STRING(4);\n    group AT K4M0 : STRING(4);\n    begun : STRING(4) := 'abc';\n    wide : WSTRING(4);\nEND_VAR\n\
+         s := t;\ns := CONCAT(s, 'x');\ns := 'abcdef';\ns := 'caf\u{e9}$20';\ns := '\u{4e2d}';\ns := '$';\n\
+         IF s < t THEN D0 := 1; END_IF;\nD0 := MAX(s, t);\ns := s + 'a';\nD0 := s;\ns := D0;\nD0 := LEN();\n\
+         D0 := LEN(5);\ns := LEFT(s, t);\ns := LEFT(s, n := 3);\nY0 := NOT s;\nCASE s OF 1: D0 := 1; END_CASE;\n\
+         s := INT_TO_STRING(s);\nD0 := STRING_TO_INT(D1);\nD0 := 'abc';\n\
+         t := '0123456789 0123456789 0123456789 0123456789';\nD0 := LENGTH(s);\nEND_PROGRAM\n";
+    let found = compiled(text, ModelId::Fx3u).1;
+    let other = "PROGRAM P\nVAR s : STRING(5); END_VAR\ns := 'abc';\nIF s = '' THEN D0 := LEN(s); END_IF;\n\
+         s := LEFT(INT_TO_STRING(D0), 5);\nEND_PROGRAM\n";
+    let other = compiled(other, ModelId::Fx1n).1;
+    insta::assert_snapshot!(format!("{found}\n--- FX1N\n{other}"));
+}
+
+#[test]
+fn texts_have_the_instructions_of_fx3u() {
+    let text = "PROGRAM P\nVAR\n    s AT D10 : STRING(5);\n    t AT D20 : STRING(12);\nEND_VAR\n\
+         t := s;\ns := 'abc';\nD0 := LEN(t);\ns := LEFT(t, 5);\nt := INSERT(s, '-', D1);\nY0 := s = t;\n\
+         t := INT_TO_STRING(D0);\nD2 := STRING_TO_INT(t);\nEND_PROGRAM\n";
+    insta::assert_snapshot!(list(text));
+}
+
+#[test]
 fn mistakes_are_reported_where_they_are() {
     insta::assert_snapshot!(compiled(include_str!("mistakes.st"), ModelId::Fx3u).1);
 }
