@@ -184,6 +184,12 @@ impl Structures {
     pub(crate) fn new(all: &[Declared], labels: &Labels, found: &mut Vec<Diagnostic>) -> Self {
         let mut structures = Structures::default();
         let mut open = BTreeSet::new();
+        // The name of an elementary type is reported.
+        let all: Vec<_> = all
+            .iter()
+            .filter(|one| !Ty::is_name(&one.name.text))
+            .cloned()
+            .collect();
         for (at, one) in all.iter().enumerate() {
             let same = |other: &&Declared| other.name.text.eq_ignore_ascii_case(&one.name.text);
             if let Some(first) = all[..at].iter().find(same) {
@@ -196,7 +202,7 @@ impl Structures {
                 );
                 continue;
             }
-            structures.add(one, all, labels, &mut open, found);
+            structures.add(one, &all, labels, &mut open, found);
         }
         structures
     }

@@ -145,6 +145,7 @@ fn parsed(source: &Source, found: &mut Vec<rungc_syntax::Diagnostic>) -> Option<
         }
         let before = found.len();
         shape::nesting(&tokens, found);
+        shape::names(&tokens, found);
         if found.len() > before {
             return None;
         }

@@ -97,6 +97,11 @@ const ENDS: [&str; 23] = [
     "VAR_GLOBAL",
 ];
 
+/// Returns true for a word that names nothing.
+pub(crate) fn is_keyword(token: Token) -> bool {
+    is_any(token, &KEYWORDS)
+}
+
 fn is_any(token: Token, keywords: &[&str]) -> bool {
     keywords.iter().any(|keyword| token.is(keyword))
 }

@@ -5,7 +5,8 @@ use crate::emit::Compiler;
 use crate::fold;
 use crate::labels::Labels;
 use crate::literal::Const;
-use rungc_syntax::{Device, Diagnostic, Operand, OperandKind, Span, codes};
+use crate::types::Ty;
+use rungc_syntax::{Device, Diagnostic, Operand, OperandKind, Span, codes, phrase};
 use std::collections::BTreeMap;
 
 /// Priority of a task that states none: the lowest.
@@ -180,6 +181,12 @@ pub(crate) fn declared_twice(tree: &Text, found: &mut Vec<Diagnostic>) {
                 names.insert(key, (name.span, is_function));
             }
         }
+    }
+    let structures = tree.structures.iter().map(|one| &one.name);
+    for name in structures.filter(|name| Ty::is_name(&name.text)) {
+        let what = phrase!("`{name}` is the name of a type", name = name.text);
+        let error = codes::ST_DECLARED_TWICE.at(name.span, what);
+        found.push(error.help("choose another name"));
     }
     let variables = tree.globals.iter().flat_map(|section| &section.variables);
     for name in variables.flat_map(|variable| &variable.names) {

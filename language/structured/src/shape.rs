@@ -1,8 +1,9 @@
 //! Checks of a text before it is understood: how deep it nests, and which keywords and semicolons are missing.
 
 use crate::ast::{Body, Closed, Stmt, StmtKind, Text, UnitKind};
+use crate::parse;
 use crate::token::{Lexeme, Token};
-use rungc_syntax::{Diagnostic, Span, codes};
+use rungc_syntax::{Diagnostic, Span, codes, phrase};
 
 /// Depth of parentheses, and of IF, CASE and loops with their ELSIF.
 const DEEPEST: usize = 48;
@@ -59,6 +60,29 @@ pub(crate) fn nesting(tokens: &[Lexeme], found: &mut Vec<Diagnostic>) {
         let error = codes::ST_UNSUPPORTED.at(lexeme.span, what);
         found.push(error.help("assign parts to labels, or split the statement"));
         return;
+    }
+}
+
+/// Reports keywords in the place of a name: before the type of a label, structure or function, or after the first word
+/// of a unit.
+pub(crate) fn names(tokens: &[Lexeme], found: &mut Vec<Diagnostic>) {
+    for (at, lexeme) in tokens
+        .iter()
+        .enumerate()
+        .filter(|(_, one)| parse::is_keyword(one.token))
+    {
+        let word = lexeme.token.text().to_ascii_uppercase();
+        let ends = word == "ELSE" || word.starts_with("END_") || word.starts_with("VAR");
+        let next = tokens.get(at + 1).map(|next| next.token);
+        let before = at.checked_sub(1).map(|before| tokens[before].token);
+        let begins = ["PROGRAM", "FUNCTION", "FUNCTION_BLOCK"];
+        let is_unit = before.is_some_and(|before| begins.iter().any(|word| before.is(word)));
+        if !ends && (is_unit || next == Some(Token::Sign(":"))) {
+            let name = lexeme.token.text();
+            let what = phrase!("`{name}` is a keyword, which cannot be a name", name);
+            let error = codes::ST_DECLARED_TWICE.at(lexeme.span, what);
+            found.push(error.help("choose another name"));
+        }
     }
 }
 

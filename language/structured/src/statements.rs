@@ -80,7 +80,15 @@ impl Compiler<'_> {
             }
             StmtKind::Case(of, arms, otherwise, _) => self.case(of, arms, otherwise.as_ref()),
             StmtKind::For(for_) => self.count(for_),
-            StmtKind::While(when, body, _) => self.while_(when, body),
+            StmtKind::While(when, body, _) => {
+                let arm = Arm {
+                    when: when.clone(),
+                    body: body.clone(),
+                    span: when.span,
+                };
+                self.warn_constant(&[arm], None);
+                self.while_(when, body)
+            }
             StmtKind::Repeat(body, until, _) => self.repeat(body, until),
             StmtKind::Exit => match self.loops.last() {
                 Some(end) => {

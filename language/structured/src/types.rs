@@ -56,6 +56,11 @@ impl Ty {
         })
     }
 
+    /// Returns true for the name of a type that needs no declaration.
+    pub(crate) fn is_name(name: &str) -> bool {
+        Ty::named(name).is_some() || name.eq_ignore_ascii_case("STRING")
+    }
+
     /// Number of words that a value takes; 0 for a bit.
     pub(crate) const fn words(self) -> u32 {
         match self {

@@ -2,7 +2,8 @@
 
 use super::contents::Contents;
 use crate::{ReadOptions, encoding};
-use rungc_syntax::{Diagnostic, Phrase, Source, Span, codes, phrase};
+use rungc_syntax::codes::{self, Code};
+use rungc_syntax::{Diagnostic, Phrase, Source, Span, phrase};
 use std::path::{Path, PathBuf};
 use walkdir::{DirEntry, WalkDir};
 
@@ -20,6 +21,7 @@ pub(crate) struct Joined {
 
 /// What is said about the files.
 struct Note {
+    code: &'static Code,
     /// Position of the file that it is about.
     file: usize,
     /// Place in this file.
@@ -36,7 +38,7 @@ impl Joined {
         let notes = self.notes.iter().map(|note| {
             let start = files[note.file].start;
             let span = Span::new(start + note.span.start, start + note.span.end);
-            let found = codes::ST_FILES.at(span, note.message.clone());
+            let found = note.code.at(span, note.message.clone());
             found.label(note.label.clone()).help(note.help.clone())
         });
         notes.collect()
@@ -59,8 +61,8 @@ struct Program {
     files: Vec<usize>,
     /// First use of a name that another file defines.
     first: Option<Use>,
-    /// First use of a name that only files with other programs define.
-    left_out: Option<Use>,
+    /// Names that only files with other programs define.
+    left_out: Vec<Use>,
 }
 
 /// Use of a name in one file that another one defines.
@@ -89,7 +91,7 @@ pub(crate) fn of(path: &Path, options: &ReadOptions) -> Option<Joined> {
     };
     if is_root {
         let program = folder.program(given);
-        let is_alone = program.files.len() == 1 && program.left_out.is_none();
+        let is_alone = program.files.len() == 1 && program.left_out.is_empty();
         return (!is_alone).then(|| folder.joined(&program, given));
     }
     let roots = (0..folder.files.len()).filter(|&at| folder.is_beside(at));
@@ -198,7 +200,7 @@ impl Folder {
                 program.first.get_or_insert(Use { from, span, to });
             }
             (None, Some(&to)) => {
-                program.left_out.get_or_insert(Use { from, span, to });
+                program.left_out.push(Use { from, span, to });
             }
             (None, None) => {}
         }
@@ -222,6 +224,7 @@ impl Folder {
         if root != given {
             let file = self.name(root);
             notes.push(Note {
+                code: &codes::ST_FILES,
                 file: place(given),
                 span: Span::default(),
                 message: phrase!(
@@ -239,6 +242,7 @@ impl Folder {
             let files = names.join(", ");
             let used = program.first;
             notes.push(Note {
+                code: &codes::ST_FILES,
                 file: used.map_or(0, |used| place(used.from)),
                 span: used.map_or(Span::default(), |used| used.span),
                 message: phrase!("this file is compiled with {files}", files),
@@ -249,9 +253,10 @@ impl Folder {
                 help: LIST.into(),
             });
         }
-        if let Some(used) = program.left_out {
+        for &used in &program.left_out {
             let (name, file) = (self.written(used), self.name(used.to));
             notes.push(Note {
+                code: &codes::ST_LEFT_OUT,
                 file: place(used.from),
                 span: used.span,
                 message: phrase!(

@@ -5,7 +5,7 @@ use super::pointers::{Pointer, Pointers};
 use super::structure::{Nesting, Routine};
 use super::{Code, Part};
 use rungc_catalogue::Basic;
-use rungc_syntax::{Diagnostics, codes, phrase};
+use rungc_syntax::{Diagnostics, SourceKind, codes, phrase};
 
 /// Collects what jumps without a condition make useless.
 #[derive(Default)]
@@ -68,6 +68,10 @@ impl JumpedOver {
         };
         let end = (jump + 1..label).find(reached).unwrap_or(label);
         self.until = end;
+        // The compiler of structured text reports statements that never run.
+        if code.resolved.program.kind == SourceKind::StructuredText {
+            return;
+        }
         let mut skipped = (jump + 1..end).filter(|&i| code.part(i) != Part::Nothing);
         let Some(first) = skipped.next() else {
             return;

@@ -215,6 +215,25 @@ fn what_is_not_compiled_has_a_reason() {
 }
 
 #[test]
+fn names_are_not_keywords_or_types() {
+    let mut all = String::new();
+    for name in ["If", "Of", "INT", "String", "Counter"] {
+        let text = format!(
+            "TYPE {name} : STRUCT a : INT; END_STRUCT; END_TYPE\nPROGRAM P\nVAR x : {name}; END_VAR\nx.a := 1;\nEND_PROGRAM\n"
+        );
+        let _ = writeln!(all, "--- {name}\n{}", compiled(&text, ModelId::Fx3u).1);
+    }
+    for text in [
+        "PROGRAM P\nVAR By, a : INT; To : BOOL; END_VAR\nBy := 1;\nEND_PROGRAM\n",
+        "PROGRAM For\nY0 := X0;\nEND_PROGRAM\n",
+        "FUNCTION Mod : INT\nMod := 1;\nEND_FUNCTION\nPROGRAM P\nD0 := Mod();\nEND_PROGRAM\n",
+    ] {
+        let _ = writeln!(all, "---\n{}", compiled(text, ModelId::Fx3u).1);
+    }
+    insta::assert_snapshot!(all);
+}
+
+#[test]
 fn mistakes_with_texts_have_a_reason() {
     let text = "PROGRAM P\nVAR CONSTANT Long : STRING(3) := 'abcd'; END_VAR\n\
          VAR\n    s : STRING(5);\n    t : STRING(12);\n    none : STRING(0);\n    most : STRING(256);\n    \
