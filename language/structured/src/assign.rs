@@ -7,7 +7,7 @@ use crate::layout::{MOST_LEAVES, Type};
 use crate::places::{self, Place, Spot};
 use crate::types::Ty;
 use crate::values::changes_index;
-use rungc_syntax::{DeviceClass, Operand, OperandKind, Span, codes};
+use rungc_syntax::{DeviceClass, Operand, OperandKind, Span, codes, phrase};
 
 impl Compiler<'_> {
     /// A label or device that can be written.
@@ -26,13 +26,16 @@ impl Compiler<'_> {
     fn is_writable(&self, place: &Place, span: Span) -> Made<()> {
         let device = place.operand.device();
         if device.is_some_and(|device| device.class == DeviceClass::X) {
-            let what = format!("`{}` is an input, which the PLC reads", place.operand);
+            let what = phrase!(
+                "`{operand}` is an input, which the PLC reads",
+                operand = place.operand
+            );
             return fail(codes::ST_NOT_WRITABLE.at(span, what));
         }
         if let (Some(device), Ty::Bool) = (device, place.ty)
             && matches!(device.class, DeviceClass::T | DeviceClass::C)
         {
-            let what = format!("the contact of `{device}` is not assigned to");
+            let what = phrase!("the contact of `{device}` is not assigned to", device);
             let error = codes::ST_NOT_WRITABLE.at(span, what);
             return fail(
                 error.help("call `OUT_T(EN, TC0, 50)`, `OUT_C(EN, CC0, 50)` or `RST(EN, TC0)`"),
@@ -136,16 +139,22 @@ impl Compiler<'_> {
     /// Copies a structure or array, member by member.
     fn assign_whole(&mut self, to: Spot, value: &Expr, span: Span) -> Made<()> {
         let Some(from) = self.spot(value)? else {
-            let what = format!("a value is assigned to {}", to.of);
+            let what = phrase!("a value is assigned to {to}", to = to.of);
             return fail(codes::ST_TYPE.at(span, what));
         };
         if !to.of.is_same(&from.of) {
-            let what = format!("this is {}, where {} is expected", from.of, to.of);
+            let what = phrase!(
+                "this is {given}, where {expected} is expected",
+                given = from.of,
+                expected = to.of
+            );
             return fail(codes::ST_TYPE.at(value.span, what));
         }
         let Some(leaves) = to.of.leaves() else {
-            let what =
-                format!("more than {MOST_LEAVES} members and elements are not copied at once");
+            let what = phrase!(
+                "more than {most} members and elements are not copied at once",
+                most = MOST_LEAVES
+            );
             let error = codes::ST_UNSUPPORTED.at(span, what);
             return fail(match to.of {
                 Type::Array(_) => error.help("copy them with `BMOV(EN, From[0], Count, To[0])`"),

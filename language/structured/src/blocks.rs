@@ -6,7 +6,7 @@ use crate::emit::{Compiler, Errors, Made, fail};
 use crate::fold;
 use crate::labels::{Instance, Label, Role, Stored, value_in};
 use crate::types::{Fit, Ty};
-use rungc_syntax::{Diagnostic, OperandKind, codes};
+use rungc_syntax::{Diagnostic, OperandKind, codes, phrase};
 use std::cell::Cell;
 use std::mem;
 use std::rc::Rc;
@@ -32,7 +32,10 @@ impl Compiler<'_> {
     fn expand(&mut self, instance: &Rc<Instance>, args: &[Arg], call: &Expr) -> Made<()> {
         self.expansions += 1;
         if self.expansions > MOST {
-            let what = format!("the program calls blocks more than {MOST} times");
+            let what = phrase!(
+                "the program calls blocks more than {most} times",
+                most = MOST
+            );
             return fail(codes::ST_UNSUPPORTED.at(call.span, what));
         }
         let block = &self.units[instance.unit];
@@ -108,13 +111,17 @@ impl Compiler<'_> {
             Some(place) if !place.is_variable() => {
                 self.expect(arg, ty)?;
                 if !is_input && ty.fit(place.ty) != Fit::Fits {
-                    let what = format!("this is {}, and the output is {ty}", place.ty);
+                    let what = phrase!(
+                        "this is {given}, and the output is {ty}",
+                        given = place.ty,
+                        ty
+                    );
                     return fail(codes::ST_TYPE.at(arg.span, what));
                 }
                 Ok(Stored::Device(place.operand))
             }
             _ if !is_input => {
-                let what = "an output is a label or device without a variable index";
+                let what = phrase!("an output is a label or device without a variable index");
                 fail(codes::ST_UNSUPPORTED.at(arg.span, what))
             }
             _ if ty == Ty::Bool => {
@@ -143,7 +150,7 @@ impl Compiler<'_> {
         match spot.as_ref().and_then(|spot| spot.area()) {
             Some(area) => Ok(Stored::Area(area.clone())),
             None => {
-                let what = format!("`{}` takes a label of its type", label.name);
+                let what = phrase!("`{name}` takes a label of its type", name = label.name);
                 fail(codes::ST_TYPE.at(arg.span, what))
             }
         }
@@ -156,7 +163,11 @@ impl Compiler<'_> {
                 continue;
             };
             let block = &self.units[instance.unit].name.text;
-            let what = format!("the instance of `{block}` does not hold `{name}`");
+            let what = phrase!(
+                "the instance of `{block}` does not hold `{name}`",
+                block,
+                name
+            );
             let error = codes::ST_UNSUPPORTED.at(span, what);
             let error = error.other(given, "a call gives this in its place");
             let error = error.help("give it in each call, and name what the call gives");
@@ -172,8 +183,12 @@ fn foreign(arg: &Arg, block: &str) -> Diagnostic {
     let name = arg.name.as_ref();
     let span = name.map_or(arg.value.span, |name| name.span);
     let what = match name {
-        Some(name) => format!("`{block}` has no input or output `{}`", name.text),
-        None => "arguments of a function block have names".to_owned(),
+        Some(name) => phrase!(
+            "`{block}` has no input or output `{name}`",
+            block,
+            name = name.text
+        ),
+        None => phrase!("arguments of a function block have names"),
     };
     let error = codes::ST_ARGUMENTS.at(span, what);
     error.help("write `Instance(Input := value, Output => label)`")
@@ -185,7 +200,11 @@ fn is_for(arg: &Arg, name: &Name) -> bool {
 }
 
 fn absent(name: &Name, call: &Expr, block: &str) -> Diagnostic {
-    let what = format!("`{}` of `{block}` is not given", name.text);
+    let what = phrase!(
+        "`{name}` of `{block}` is not given",
+        block,
+        name = name.text
+    );
     let error = codes::ST_ARGUMENTS.at(call.span, what);
     error.other(name.span, "declared here")
 }

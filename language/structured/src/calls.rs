@@ -4,14 +4,14 @@ use crate::ast::{Arg, Expr, ExprKind, Op};
 use crate::conditions::Cond;
 use crate::emit::{Compiler, Made, fail};
 use crate::fold;
-use crate::functions::ELSEWHERE;
+use crate::functions::elsewhere;
 use crate::labels::Stored;
 use crate::literal::Const;
 use crate::types::Ty;
 use crate::values::changes_index;
 use rungc_catalogue::{Drive, Found, Param, Role, Shape};
-use rungc_syntax::diag::{counted, did_you_mean};
-use rungc_syntax::{Diagnostic, Operand, OperandKind, codes, phrase};
+use rungc_syntax::diag::did_you_mean;
+use rungc_syntax::{Diagnostic, Operand, OperandKind, Phrase, codes, phrase};
 use std::rc::Rc;
 
 impl Compiler<'_> {
@@ -41,7 +41,7 @@ impl Compiler<'_> {
             if matches!(label.stored, Stored::Instances) {
                 self.spot(of)?;
             }
-            let what = format!("`{name}` is a label, which cannot be called");
+            let what = phrase!("`{name}` is a label, which cannot be called", name);
             return fail(codes::ST_TYPE.at(of.span, what));
         }
         if let Some(function) = self.functions.get(&name.to_uppercase()).cloned() {
@@ -49,7 +49,7 @@ impl Compiler<'_> {
         }
         let upper = name.to_ascii_uppercase();
         if let Some(arg) = args.iter().find_map(|arg| arg.name.as_ref()) {
-            let what = "arguments of instructions have no names";
+            let what = phrase!("arguments of instructions have no names");
             return fail(codes::ST_ARGUMENTS.at(arg.span, what));
         }
         match upper.as_str() {
@@ -64,7 +64,7 @@ impl Compiler<'_> {
             return self.alone(&upper, of, args);
         }
         let Some((enable, rest)) = args.split_first() else {
-            let what = format!("`{upper}` takes EN and its operands");
+            let what = phrase!("`{name}` takes EN and its operands", name = upper);
             return fail(
                 codes::ST_ARGUMENTS
                     .at(expr.span, what)
@@ -73,8 +73,13 @@ impl Compiler<'_> {
         };
         let params = parameters(&found, rest.len());
         if params.len() != rest.len() {
-            let (takes, given) = (counted(params.len(), "operand"), rest.len());
-            let what = format!("`{upper}` takes {takes} after EN, not {given}");
+            let (count, given) = (params.len(), rest.len());
+            let what = phrase!(
+                "`{name}` takes {count} operands after EN, not {given}",
+                name = upper,
+                count,
+                given
+            );
             return fail(
                 codes::ST_ARGUMENTS
                     .at(expr.span, what)
@@ -93,7 +98,10 @@ impl Compiler<'_> {
             self.is_powered = false;
             return Ok(());
         }
-        fail(codes::ST_ARGUMENTS.at(of.span, format!("`{name}` takes EN alone, which is TRUE")))
+        fail(codes::ST_ARGUMENTS.at(
+            of.span,
+            phrase!("`{name}` takes EN alone, which is TRUE", name),
+        ))
     }
 
     /// An instruction after its condition.
@@ -119,7 +127,7 @@ impl Compiler<'_> {
             && self.is_indexed(&one.value)
             && self.is_indexed(&other.value)
         {
-            let what = "an instruction takes one element with a variable index";
+            let what = phrase!("an instruction takes one element with a variable index");
             let error = codes::ST_UNSUPPORTED.at(other.value.span, what);
             return fail(
                 error
@@ -229,7 +237,7 @@ impl Compiler<'_> {
         let writes = is_output(param);
         if let Some(place) = self.place(expr)? {
             if place.is_variable() && place.ty.is_bit() {
-                let what = "a bit with a variable index cannot stand in an instruction";
+                let what = phrase!("a bit with a variable index cannot stand in an instruction");
                 let error = codes::ST_UNSUPPORTED.at(expr.span, what);
                 return fail(error.help("assign it to a label, or the label to it"));
             }
@@ -237,9 +245,9 @@ impl Compiler<'_> {
             return Ok((operand, Some(place.ty)));
         }
         if writes {
-            let what = format!(
-                "`{}` is written, so it has to be a label or device",
-                param.name
+            let what = phrase!(
+                "`{name}` is written, so it has to be a label or device",
+                name = param.name
             );
             return fail(codes::ST_NOT_WRITABLE.at(expr.span, what));
         }
@@ -252,7 +260,7 @@ impl Compiler<'_> {
             _ => Ty::Raw16,
         };
         if ty == Ty::Bool {
-            let what = "a condition cannot stand here";
+            let what = phrase!("a condition cannot stand here");
             return fail(
                 codes::ST_TYPE
                     .at(expr.span, what)
@@ -265,10 +273,11 @@ impl Compiler<'_> {
     /// `OUT_T(EN, TC0, 50)`.
     fn counted_out(&mut self, name: &str, of: &Expr, args: &[Arg]) -> Made<()> {
         let [enable, device, value] = args else {
-            let what = format!("`{name}` takes EN, a device and a value");
-            let help = format!(
-                "write `{name}(EN, {}, 50)`",
-                if name == "OUT_T" { "TC0" } else { "CC0" }
+            let what = phrase!("`{name}` takes EN, a device and a value", name);
+            let help = phrase!(
+                "write `{name}(EN, {device}, 50)`",
+                name,
+                device = if name == "OUT_T" { "TC0" } else { "CC0" }
             );
             return fail(codes::ST_ARGUMENTS.at(of.span, what).help(help));
         };
@@ -304,7 +313,7 @@ impl Compiler<'_> {
         };
         if ty == Ty::Time {
             let ExprKind::Binary(Op::Div, duration, step) = &value.value.kind else {
-                let what = "the value of a timer counts its steps, and this is a TIME";
+                let what = phrase!("the value of a timer counts its steps, and this is a TIME");
                 let error = codes::ST_TYPE.at(value.value.span, what);
                 return fail(error.help("divide it: `T#5s / T#100ms`"));
             };
@@ -390,12 +399,12 @@ fn call_order(params: &[Param]) -> impl Iterator<Item = usize> {
     is(false).chain(is(true))
 }
 
-fn usage(name: &str, found: &Found) -> String {
+fn usage(name: &str, found: &Found) -> Phrase {
     let params = found.inst.params;
     let names: String = call_order(params)
         .map(|at| format!(", {}", params[at].name))
         .collect();
-    format!("write `{name}(EN{names})`")
+    phrase!("write `{name}(EN{names})`", name, names)
 }
 
 fn unknown(name: &str, of: &Expr) -> Diagnostic {
@@ -408,6 +417,6 @@ fn unknown(name: &str, of: &Expr) -> Diagnostic {
     let error = codes::ST_UNKNOWN_NAME.at(of.span, what);
     match did_you_mean(&upper, spellings.iter().map(String::as_str)) {
         Some(meant) if meant != upper => error.help(phrase!("did you mean `{meant}`?", meant)),
-        _ => error.help(ELSEWHERE),
+        _ => error.help(elsewhere()),
     }
 }

@@ -7,7 +7,7 @@ use crate::places::{self, Place};
 use crate::types::Ty;
 use crate::values::is_edge;
 use crate::{convert, functions};
-use rungc_syntax::{Device, Operand, OperandKind, Span, codes};
+use rungc_syntax::{Device, Operand, OperandKind, Span, codes, phrase};
 use std::rc::Rc;
 
 /// Operator between two conditions.
@@ -214,9 +214,9 @@ impl Compiler<'_> {
         match (group, last) {
             (Some(group), Some((class, last))) if self.model.has(class, last) => Ok(group),
             (Some(_), Some((class, _))) => {
-                let what = format!(
-                    "fewer than 15 devices {} follow this array of bits",
-                    class.prefix()
+                let what = phrase!(
+                    "fewer than 15 devices {prefix} follow this array of bits",
+                    prefix = class.prefix()
                 );
                 let error = codes::ST_NO_DEVICE.at(span, what);
                 fail(
@@ -224,7 +224,8 @@ impl Compiler<'_> {
                 )
             }
             _ => {
-                let what = "a bit or contact with a variable index is compiled for BOOL alone";
+                let what =
+                    phrase!("a bit or contact with a variable index is compiled for BOOL alone");
                 fail(codes::ST_UNSUPPORTED.at(span, what))
             }
         }

@@ -6,7 +6,7 @@ use crate::routines::Routine;
 use crate::types::Ty;
 use rungc_models::Model;
 use rungc_syntax::{
-    Device, DeviceClass, Diagnostic, Instr, Operand, OperandKind, Remarks, Span, codes,
+    Device, DeviceClass, Diagnostic, Instr, Operand, OperandKind, Remarks, Span, codes, phrase,
 };
 use smol_str::{SmolStr, ToSmolStr};
 use std::cell::{Cell, RefCell};
@@ -157,7 +157,7 @@ impl Compiler<'_> {
 
     pub(crate) fn pointer(&mut self) -> Made<Device> {
         self.supply.pointer().ok_or_else(|| {
-            let what = "no pointer P is left for IF, CASE, loops and subroutines";
+            let what = phrase!("no pointer P is left for IF, CASE, loops and subroutines");
             let first = codes::ST_NO_DEVICE.at(self.span, what);
             vec![first.help("the range is that of GX Works2 for this model; join conditions, or split the program")]
         })
@@ -180,9 +180,9 @@ impl Compiler<'_> {
 
     fn taken(&mut self, class: DeviceClass, count: u32) -> Made<Device> {
         self.supply.take(class, count).ok_or_else(|| {
-            let what = format!(
-                "no device {} is left for a value in between",
-                class.prefix()
+            let what = phrase!(
+                "no device {prefix} is left for a value in between",
+                prefix = class.prefix()
             );
             let error = codes::ST_NO_DEVICE.at(self.span, what);
             vec![

@@ -7,7 +7,9 @@ use crate::emit::{Compiler, Made, both, fail};
 use crate::literal::Const;
 use crate::texts;
 use crate::types::Ty;
-use rungc_syntax::{Device, Diagnostic, Operand, OperandKind, codes, diag::did_you_mean, phrase};
+use rungc_syntax::{
+    Device, Diagnostic, Operand, OperandKind, Phrase, codes, diag::did_you_mean, phrase,
+};
 
 /// Function of the library.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -68,7 +70,11 @@ pub(crate) fn find(name: &str) -> Option<Function> {
 }
 
 /// What to do where a text does not define a unit.
-pub(crate) const ELSEWHERE: &str = "define it here, in a file of the same folder, or in one that `[project] program` in rungc.toml lists";
+pub(crate) fn elsewhere() -> Phrase {
+    phrase!(
+        "define it here, in a file of the same folder, or in one that `[project] program` in rungc.toml lists"
+    )
+}
 
 /// A function of an unknown name.
 pub(crate) fn unknown(name: &str, of: &Expr) -> Diagnostic {
@@ -78,7 +84,7 @@ pub(crate) fn unknown(name: &str, of: &Expr) -> Diagnostic {
     let names = names.chain(convert::names()).chain(texts::names());
     match did_you_mean(&name.to_uppercase(), names) {
         Some(meant) => error.help(phrase!("did you mean `{meant}`?", meant)),
-        None => error.help(ELSEWHERE),
+        None => error.help(elsewhere()),
     }
 }
 
@@ -91,7 +97,7 @@ impl Compiler<'_> {
         expr: &Expr,
     ) -> Made<Ty> {
         if let Some(arg) = args.iter().find_map(|arg| arg.name.as_ref()) {
-            let what = "arguments of functions of the library have no names";
+            let what = phrase!("arguments of functions of the library have no names");
             return fail(codes::ST_ARGUMENTS.at(arg.span, what));
         }
         let (least, most, usage) = match function {
@@ -103,9 +109,12 @@ impl Compiler<'_> {
             Function::Shift(_) => (2, 2, "NAME(value, places)"),
         };
         if args.len() < least || args.len() > most {
-            let what = format!("this function does not take {} arguments", args.len());
+            let what = phrase!(
+                "this function does not take {given} arguments",
+                given = args.len()
+            );
             let error = codes::ST_ARGUMENTS.at(expr.span, what);
-            return fail(error.help(format!("write `{usage}`")));
+            return fail(error.help(phrase!("write `{usage}`", usage)));
         }
         let values = match function {
             Function::Select => {
@@ -128,7 +137,7 @@ impl Compiler<'_> {
             _ => ty != Ty::Bool && !ty.is_text(),
         };
         if !suits {
-            let what = format!("this function is not compiled for {ty}");
+            let what = phrase!("this function is not compiled for {ty}", ty);
             return fail(codes::ST_TYPE.at(values[0].value.span, what));
         }
         Ok(ty)
@@ -144,7 +153,8 @@ impl Compiler<'_> {
                 Some(before) => match before.common(ty) {
                     Some(ty) => Some(ty),
                     None => {
-                        let what = format!("this is {ty}, and the value before it {before}");
+                        let what =
+                            phrase!("this is {ty}, and the value before it {before}", ty, before);
                         return fail(codes::ST_TYPE.at(arg.value.span, what));
                     }
                 },
@@ -298,7 +308,10 @@ impl Compiler<'_> {
             _ => None,
         };
         let Some(places) = places.filter(|places| *places < bits) else {
-            let what = format!("the number of places is a constant from 0 to {}", bits - 1);
+            let what = phrase!(
+                "the number of places is a constant from 0 to {most}",
+                most = bits - 1
+            );
             return fail(codes::ST_LITERAL.at(args[1].value.span, what));
         };
         let value = self.operand(&args[0].value, ty)?;
@@ -393,7 +406,10 @@ impl Compiler<'_> {
         target: Option<&Operand>,
     ) -> Made<OperandKind> {
         if ty.is_wide() {
-            let what = format!("`{}` of DWORD values is not compiled yet", op.sign());
+            let what = phrase!(
+                "`{sign}` of DWORD values is not compiled yet",
+                sign = op.sign()
+            );
             let error = codes::ST_UNSUPPORTED.at(a.span.to(b.span), what);
             return fail(error.help("convert to DINT, which has a sign: `DWORD_TO_DINT(…)`"));
         }

@@ -8,7 +8,7 @@ use crate::ranges::{Free, Ranges};
 use crate::stated::{stated, stated_members, suits};
 use crate::types::{Fit, Ty};
 use crate::{Known, blocks, calls, convert, fold, texts};
-use rungc_syntax::{Device, DeviceClass, Diagnostic, OperandKind, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, OperandKind, Span, codes, phrase};
 use smol_str::SmolStr;
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -273,7 +273,10 @@ impl Labels {
             section.keyword.text.as_str(),
             "VAR" | "VAR_GLOBAL" | "VAR_CONSTANT" | "VAR_TEMP"
         ) {
-            let what = format!("`{}` has no meaning in a program", section.keyword.text);
+            let what = phrase!(
+                "`{keyword}` has no meaning in a program",
+                keyword = section.keyword.text
+            );
             let error = codes::ST_UNSUPPORTED.at(section.keyword.span, what);
             cx.found
                 .push(error.help("a program declares its labels in `VAR` … `END_VAR`"));
@@ -296,7 +299,7 @@ impl Labels {
         if let Some(unit) = block_of(variable, cx.units) {
             let stated = variable.members.iter().map(|(_, device)| device);
             if let Some(place) = variable.place.iter().chain(stated).next() {
-                let what = "a function block gets its devices by itself";
+                let what = phrase!("a function block gets its devices by itself");
                 let error = codes::ST_UNSUPPORTED.at(place.span, what);
                 cx.found.push(error.help("leave out `AT`"));
             }
@@ -385,9 +388,9 @@ impl Labels {
         }
         let outer = cx.path.clone();
         if outer.matches('.').count() >= DEEPEST || cx.left == 0 {
-            let what = format!(
-                "there are too many instances of blocks, or of blocks in blocks, at `{}`",
-                name.text
+            let what = phrase!(
+                "there are too many instances of blocks, or of blocks in blocks, at `{name}`",
+                name = name.text
             );
             cx.found.push(codes::ST_UNSUPPORTED.at(name.span, what));
             return;
@@ -404,8 +407,10 @@ impl Labels {
     fn clash(&self, name: &Name, role: Role) -> Option<Diagnostic> {
         let text = name.text.as_str();
         if let Some(first) = self.by_name.get(&text.to_uppercase()) {
-            let error =
-                codes::ST_DECLARED_TWICE.at(name.span, format!("`{text}` is declared twice"));
+            let error = codes::ST_DECLARED_TWICE.at(
+                name.span,
+                phrase!("`{name}` is declared twice", name = text),
+            );
             return Some(error.label("again here").other(first.span, "first here"));
         }
         // Calls name inputs and outputs.
@@ -414,14 +419,16 @@ impl Labels {
         }
         let is_device = device::find(text).is_some() || device::constant(text).is_some();
         let what = if is_device {
-            "a device or constant"
+            phrase!("a device or constant")
         } else if convert::find(text).is_some() || calls::is_instruction(text) {
-            "an instruction or function"
+            phrase!("an instruction or function")
         } else {
             return None;
         };
-        let error =
-            codes::ST_DECLARED_TWICE.at(name.span, format!("`{text}` is the name of {what}"));
+        let error = codes::ST_DECLARED_TWICE.at(
+            name.span,
+            phrase!("`{name}` is the name of {what}", name = text, what),
+        );
         Some(error.help("choose another name for the label"))
     }
 
@@ -432,11 +439,11 @@ impl Labels {
         of: &Type,
     ) -> Result<Stored, Box<Diagnostic>> {
         let Some(ty) = of.plain() else {
-            let what = "arrays and structures that are constant are not compiled yet";
+            let what = phrase!("arrays and structures that are constant are not compiled yet");
             return Err(codes::ST_UNSUPPORTED.at(variable.span, what).into());
         };
         let Some(initial) = &variable.initial else {
-            let what = format!("the constant `{}` has no value", name.text);
+            let what = phrase!("the constant `{name}` has no value", name = name.text);
             return Err(codes::ST_LITERAL
                 .at(name.span, what)
                 .help("write `:= VALUE`")
@@ -446,7 +453,7 @@ impl Labels {
             return texts::constant(text, most, initial.span).map(Stored::Text);
         }
         let Some((value, of)) = fold::constant(self, initial) else {
-            let what = "this is not a constant";
+            let what = phrase!("this is not a constant");
             return Err(codes::ST_LITERAL.at(initial.span, what).into());
         };
         value_in((value, of), ty, initial.span).map(Stored::Constant)
@@ -517,16 +524,20 @@ pub(crate) fn initial_value(labels: &Labels, initial: &Expr) -> Option<Diagnosti
         _ if matches!(&initial.kind, ExprKind::Text(text) if text.is_empty()) => true,
         _ => false,
     };
-    let what = "GX Works2 compiles no initial values for FX";
+    let what = phrase!("GX Works2 compiles no initial values for FX");
     let error = || codes::ST_UNSUPPORTED.at(initial.span, what);
-    let help = "assign it in the first scan: `IF M8002 THEN … END_IF;`";
+    let help = phrase!("assign it in the first scan: `IF M8002 THEN … END_IF;`");
     (!is_zero).then(|| error().help(help))
 }
 
 /// A constant in a type.
 pub(crate) fn value_in((value, of): Literal, ty: Ty, span: Span) -> Result<Const, Box<Diagnostic>> {
     let misfit = || {
-        let what = format!("this is {of}, where {ty} is expected");
+        let what = phrase!(
+            "this is {given}, where {expected} is expected",
+            given = of,
+            expected = ty
+        );
         Err(codes::ST_TYPE.at(span, what).into())
     };
     if of.fit(ty) != Fit::Fits {
@@ -535,9 +546,11 @@ pub(crate) fn value_in((value, of): Literal, ty: Ty, span: Span) -> Result<Const
     match (value, range(ty)) {
         (Const::Int(value), _) if ty == Ty::Real => Ok(Const::Real(value as f64)),
         (Const::Int(value), Some((least, most))) if value < least || value > most => {
-            let what = format!("{value} does not fit in {ty}");
+            let what = phrase!("{value} does not fit in {ty}", value, ty);
             let error = codes::ST_LITERAL.at(span, what);
-            Err(error.help(format!("it holds {least} to {most}")).into())
+            Err(error
+                .help(phrase!("it holds {least} to {most}", least, most))
+                .into())
         }
         (Const::Int(value), _) if ty == Ty::Bool => Ok(Const::Bool(value == 1)),
         (value, _) => Ok(value),
@@ -574,7 +587,7 @@ fn chosen(
     };
     let mut area = Area::default();
     if let (Some((member, _)), None) = (variable.members.first(), label.of.structure()) {
-        let what = format!("`{}` has no members", label.name);
+        let what = phrase!("`{name}` has no members", name = label.name);
         return Err(codes::ST_TYPE.at(member.span, what).into());
     }
     if let Type::Structure(structure) = &label.of {
@@ -602,7 +615,11 @@ fn chosen(
         _ => cx.supply.take(class, count).map(Some).ok_or(class),
     };
     let none_left = |class: DeviceClass| {
-        let what = format!("no device {} is left for `{}`", class.prefix(), label.name);
+        let what = phrase!(
+            "no device {prefix} is left for `{name}`",
+            prefix = class.prefix(),
+            name = label.name
+        );
         let error = codes::ST_NO_DEVICE.at(label.span, what);
         error.help("state a device with `AT`, or shorten the arrays")
     };

@@ -3,12 +3,12 @@
 
 use crate::ast::{Structure as Declared, TypeName, Variable};
 use crate::fold;
-use crate::functions::ELSEWHERE;
+use crate::functions::elsewhere;
 use crate::labels::{Labels, Stored, initial_value};
 use crate::literal::{self, Const};
 use crate::texts;
 use crate::types::Ty;
-use rungc_syntax::{Diagnostic, codes, phrase};
+use rungc_syntax::{Argument, Diagnostic, Say, codes, phrase};
 use smol_str::SmolStr;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -163,12 +163,14 @@ impl Type {
     }
 }
 
-impl std::fmt::Display for Type {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl Say for Type {
+    fn said(&self) -> Argument {
         match self {
-            Type::Plain(ty) => write!(f, "{ty}"),
-            Type::Array(_) => f.write_str("a whole array"),
-            Type::Structure(structure) => write!(f, "a structure `{}`", structure.name),
+            Type::Plain(ty) => ty.said(),
+            Type::Array(_) => Argument::Phrase(phrase!("a whole array")),
+            Type::Structure(structure) => {
+                Argument::Phrase(phrase!("a structure `{name}`", name = structure.name))
+            }
         }
     }
 }
@@ -193,7 +195,7 @@ impl Structures {
         for (at, one) in all.iter().enumerate() {
             let same = |other: &&Declared| other.name.text.eq_ignore_ascii_case(&one.name.text);
             if let Some(first) = all[..at].iter().find(same) {
-                let what = format!("`{}` is declared twice", one.name.text);
+                let what = phrase!("`{name}` is declared twice", name = one.name.text);
                 let error = codes::ST_DECLARED_TWICE.at(one.name.span, what);
                 found.push(
                     error
@@ -223,8 +225,11 @@ impl Structures {
         let is_deep = open.len() >= DEEPEST;
         if is_deep || !open.insert(key.clone()) {
             let what = match is_deep {
-                true => format!("structures nest deeper than {DEEPEST} levels"),
-                false => format!("the structure `{}` contains itself", one.name.text),
+                true => phrase!("structures nest deeper than {most} levels", most = DEEPEST),
+                false => phrase!(
+                    "the structure `{name}` contains itself",
+                    name = one.name.text
+                ),
             };
             found.push(codes::ST_TYPE.at(one.name.span, what));
             self.by_name.insert(key, None);
@@ -257,7 +262,10 @@ impl Structures {
         let mut size = Size::default();
         let mut is_whole = !one.members.is_empty();
         if !is_whole {
-            let what = format!("the structure `{}` has no members", one.name.text);
+            let what = phrase!(
+                "the structure `{name}` has no members",
+                name = one.name.text
+            );
             found.push(codes::ST_TYPE.at(one.name.span, what));
         }
         for variable in &one.members {
@@ -274,7 +282,7 @@ impl Structures {
                     .iter()
                     .any(|member| member.name.eq_ignore_ascii_case(&name.text))
                 {
-                    let what = format!("`{}` is declared twice", name.text);
+                    let what = phrase!("`{name}` is declared twice", name = name.text);
                     found.push(codes::ST_DECLARED_TWICE.at(name.span, what));
                 }
                 let Some(of) = of.clone() else {
@@ -304,9 +312,9 @@ impl Structures {
         let (span, what) = match (of.element(), place) {
             (Some(Ty::Timer), _) => (
                 variable.of.span,
-                "a structure with a TIMER or COUNTER is not compiled yet",
+                phrase!("a structure with a TIMER or COUNTER is not compiled yet"),
             ),
-            (_, Some(place)) => (place, "a member of a structure states no device"),
+            (_, Some(place)) => (place, phrase!("a member of a structure states no device")),
             _ => return true,
         };
         found.push(codes::ST_UNSUPPORTED.at(span, what));
@@ -407,7 +415,9 @@ fn not_a_type(of: &TypeName) -> Diagnostic {
     };
     let error = code.at(of.name.span, what);
     error.help(match code.id == codes::ST_UNKNOWN_NAME.id {
-        true => ELSEWHERE,
-        false => "types are BOOL, INT, WORD, DINT, DWORD, REAL, TIME, STRING, TIMER and COUNTER",
+        true => elsewhere(),
+        false => {
+            phrase!("types are BOOL, INT, WORD, DINT, DWORD, REAL, TIME, STRING, TIMER and COUNTER")
+        }
     })
 }

@@ -38,6 +38,7 @@ use layout::Structures;
 use rungc_models::Model;
 use rungc_syntax::{
     Device, Diagnostics, Instr, OperandKind, Program, Severity, Source, SourceKind, Span, codes,
+    phrase,
 };
 use runs::Run;
 use std::cell::{Cell, RefCell};
@@ -297,10 +298,10 @@ fn functions_of(cx: &mut Declaring) -> BTreeMap<String, Rc<Instance>> {
     for (at, unit) in units.filter(|(_, unit)| unit.kind == UnitKind::Function) {
         let name = &unit.name;
         if unit.returns.is_none() {
-            let what = format!("the function `{}` has no result", name.text);
+            let what = phrase!("the function `{name}` has no result", name = name.text);
             let error = codes::ST_SYNTAX.at(name.span, what);
             cx.found
-                .push(error.help(format!("write `FUNCTION {} : INT`", name.text)));
+                .push(error.help(phrase!("write `FUNCTION {name} : INT`", name = name.text)));
             continue;
         }
         cx.path = format!("{}.", name.text);
@@ -324,7 +325,7 @@ fn unused(labels: &Labels, found: &mut Vec<rungc_syntax::Diagnostic>) {
         .all()
         .filter(|label| label.is_chosen && !label.is_used.get());
     for label in unused {
-        let what = format!("nothing uses `{}`", label.name);
+        let what = phrase!("nothing uses `{name}`", name = label.name);
         found.push(codes::ST_UNUSED.at(label.span, what));
     }
 }

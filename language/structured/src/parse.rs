@@ -11,7 +11,7 @@ use chumsky::error::{RichPattern, RichReason};
 use chumsky::input::MapExtra;
 use chumsky::inspector::SimpleState;
 use chumsky::prelude::*;
-use rungc_syntax::{Diagnostic, Span, codes};
+use rungc_syntax::{Diagnostic, Phrase, Span, codes, phrase};
 
 type Tokens<'t> = &'t [Lexeme<'t>];
 type State<'t> = SimpleState<Tokens<'t>>;
@@ -212,21 +212,23 @@ fn diagnostic(error: &Rich<Lexeme>, tokens: &[Lexeme]) -> Diagnostic {
     };
     let found = tokens.get(error.span().start);
     let message = match found {
-        Some(lexeme) => format!("`{}` cannot follow here", lexeme.token.text()),
-        None => "the text ends here".to_owned(),
+        Some(lexeme) => phrase!("`{token}` cannot follow here", token = lexeme.token.text()),
+        None => phrase!("the text ends here"),
     };
     let message = match (found.map(|lexeme| lexeme.token), error.found()) {
-        (Some(Token::Open("(*")), _) => "this comment is not closed".to_owned(),
-        (Some(Token::Open(_)), _) => "these quotation marks are not closed on the line".to_owned(),
-        (Some(Token::Stray(text)), _) => format!("`{text}` has no meaning in structured text"),
+        (Some(Token::Open("(*")), _) => phrase!("this comment is not closed"),
+        (Some(Token::Open(_)), _) => phrase!("these quotation marks are not closed on the line"),
+        (Some(Token::Stray(text)), _) => {
+            phrase!("`{text}` has no meaning in structured text", text)
+        }
         _ => message,
     };
     let mut wanted = wanted;
     wanted.sort();
     wanted.dedup();
     let error = codes::ST_SYNTAX.at(at, message);
-    match list(&wanted) {
-        Some(wanted) => error.label(format!("expected {wanted}")),
+    match list(wanted.iter().map(|word| part(word))) {
+        Some(wanted) => error.label(phrase!("expected {wanted}", wanted)),
         None => error,
     }
 }
@@ -239,10 +241,30 @@ fn label(pattern: &RichPattern<Lexeme>) -> Option<String> {
 }
 
 /// `a`, `b` or `c`.
-fn list(words: &[String]) -> Option<String> {
-    let (last, rest) = words.split_last()?;
-    Some(match rest.is_empty() {
-        true => last.clone(),
-        false => format!("{} or {last}", rest.join(", ")),
+fn list(words: impl DoubleEndedIterator<Item = Phrase>) -> Option<Phrase> {
+    let mut words = words;
+    let last = words.next_back()?;
+    let before = words.reduce(|before, next| phrase!("{before}, {next}", before, next));
+    Some(match before {
+        Some(before) => phrase!("{before} or {last}", before, last),
+        None => last,
     })
 }
+
+/// A part of a text that is expected.
+fn part(label: &str) -> Phrase {
+    match label {
+        "a device" => phrase!("a device"),
+        "a name" => phrase!("a name"),
+        "a statement" => phrase!("a statement"),
+        "a type" => phrase!("a type"),
+        "an expression" => phrase!("an expression"),
+        "an operator" => phrase!("an operator"),
+        NUMBERED => phrase!("the name of a member or the number of a bit"),
+        // A keyword or sign in back quotes.
+        other => other.to_owned().into(),
+    }
+}
+
+/// What follows the dot after a name.
+const NUMBERED: &str = "the name of a member or the number of a bit";

@@ -10,7 +10,7 @@ use crate::layout::{Size, Type};
 use crate::literal::Const;
 use crate::types::Ty;
 use rungc_syntax::{
-    Device, DeviceClass, Index, Operand, OperandKind, Span, codes, diag::did_you_mean,
+    Device, DeviceClass, Index, Operand, OperandKind, Span, codes, diag::did_you_mean, phrase,
 };
 use std::rc::Rc;
 
@@ -163,7 +163,7 @@ impl Compiler<'_> {
             return Ok(None);
         };
         if spot.of.plain().is_none() {
-            let error = codes::ST_TYPE.at(expr.span, format!("this is {}", spot.of));
+            let error = codes::ST_TYPE.at(expr.span, phrase!("this is {given}", given = spot.of));
             return fail(error.help("name a member or element; only `:=` copies all of them"));
         }
         Ok(spot.place())
@@ -176,8 +176,8 @@ impl Compiler<'_> {
             ExprKind::Address(text) => match device::address(text) {
                 Some((operand, ty)) => Ok(Some(Spot::new(operand, ty))),
                 None => {
-                    let error =
-                        codes::ST_UNKNOWN_NAME.at(expr.span, format!("`{text}` is not an address"));
+                    let error = codes::ST_UNKNOWN_NAME
+                        .at(expr.span, phrase!("`{text}` is not an address", text));
                     fail(error.help("write the device, such as `X0`, `M10` or `D10`"))
                 }
             },
@@ -211,15 +211,18 @@ impl Compiler<'_> {
             Stored::Area(area) => At::Area(area.clone()),
             Stored::Constant(_) | Stored::Text(_) => return Ok(None),
             Stored::Instance(_) => {
-                let what = format!("`{}` is an instance of a function block", label.name);
+                let what = phrase!(
+                    "`{name}` is an instance of a function block",
+                    name = label.name
+                );
                 let error = codes::ST_TYPE.at(expr.span, what);
-                return fail(error.help(format!("call it: `{}(…);`", label.name)));
+                return fail(error.help(phrase!("call it: `{name}(…);`", name = label.name)));
             }
             Stored::Instances => {
                 let name = &label.name;
-                let what = format!("`{name}` is an array of function blocks");
+                let what = phrase!("`{name}` is an array of function blocks", name);
                 let error = codes::ST_TYPE.at(expr.span, what);
-                let help = "name one of them by a constant index within the bounds";
+                let help = phrase!("name one of them by a constant index within the bounds");
                 return fail(error.help(help));
             }
             // Its declaration is reported.
@@ -243,9 +246,10 @@ impl Compiler<'_> {
         let names: Vec<_> = names.collect();
         let meant = did_you_mean(&upper, names.iter().map(|(upper, _)| upper.as_str()));
         let meant = meant.and_then(|meant| names.iter().find(|(upper, _)| upper == meant));
-        let error = codes::ST_UNKNOWN_NAME.at(expr.span, format!("nothing declares `{name}`"));
+        let error =
+            codes::ST_UNKNOWN_NAME.at(expr.span, phrase!("nothing declares `{name}`", name));
         match meant {
-            Some((_, meant)) => error.help(format!("did you mean `{meant}`?")),
+            Some((_, meant)) => error.help(phrase!("did you mean `{meant}`?", meant)),
             None => error.help("declare it in `VAR` … `END_VAR`, or write a device such as `M0`"),
         }
     }
@@ -302,11 +306,15 @@ impl Compiler<'_> {
                 let mut members = structure.members.iter();
                 let found = members.find(|one| one.name.eq_ignore_ascii_case(member));
                 let Some(found) = found else {
-                    let what = format!("`{}` has no member `{member}`", structure.name);
+                    let what = phrase!(
+                        "`{name}` has no member `{member}`",
+                        member,
+                        name = structure.name
+                    );
                     let names = structure.members.iter().map(|one| one.name.as_str());
                     let error = codes::ST_UNKNOWN_NAME.at(expr.span, what);
                     return fail(match did_you_mean(member, names) {
-                        Some(meant) => error.help(format!("did you mean `{meant}`?")),
+                        Some(meant) => error.help(phrase!("did you mean `{meant}`?", meant)),
                         None => error,
                     });
                 };
@@ -332,7 +340,10 @@ impl Compiler<'_> {
             .place()
             .filter(|word| words == 1 && !word.is_variable());
         let Some(operand) = bit.and_then(|word| device::bit(&word.operand, member)) else {
-            let error = codes::ST_TYPE.at(expr.span, format!("`{member}` is not a bit of {of}"));
+            let error = codes::ST_TYPE.at(
+                expr.span,
+                phrase!("`{member}` is not a bit of {of}", member, of),
+            );
             return fail(error.help("a register of 16 bits has the bits 0 to F"));
         };
         let mut spot = Spot::new(operand, Ty::Bool);
@@ -349,7 +360,7 @@ impl Compiler<'_> {
     ) -> Made<Option<Spot<'e>>> {
         let Some(label) = instance.own.own(member) else {
             let block = &self.units[instance.unit].name.text;
-            let what = format!("`{block}` has no `{member}`");
+            let what = phrase!("`{block}` has no `{member}`", block, member);
             return fail(codes::ST_UNKNOWN_NAME.at(expr.span, what));
         };
         self.note_own(instance, &label.name, expr.span);
@@ -373,7 +384,7 @@ impl Compiler<'_> {
         };
         for index in indexes {
             let Type::Array(array) = &spot.of else {
-                let what = format!("this is {}, not an array", spot.of);
+                let what = phrase!("this is {given}, not an array", given = spot.of);
                 return fail(codes::ST_TYPE.at(of.span.to(index.span), what));
             };
             let array = Rc::clone(array);
@@ -381,7 +392,7 @@ impl Compiler<'_> {
             let distance = match fold::constant(&self.labels, index) {
                 Some((Const::Int(at), _)) if at < array.first || at > array.last => {
                     let (first, last) = (array.first, array.last);
-                    let what = format!("the array has the elements {first} to {last}");
+                    let what = phrase!("the array has the elements {first} to {last}", first, last);
                     return fail(codes::ST_LITERAL.at(index.span, what));
                 }
                 Some((Const::Int(at), _)) => each.times(at.abs_diff(array.first)),
@@ -391,7 +402,7 @@ impl Compiler<'_> {
                 None => {
                     let ty = self.ty(index)?;
                     if !ty.is_whole() {
-                        let what = format!("an index is a whole number, and this is {ty}");
+                        let what = phrase!("an index is a whole number, and this is {ty}", ty);
                         return fail(codes::ST_TYPE.at(index.span, what));
                     }
                     let first = array.first;
@@ -501,7 +512,7 @@ impl Compiler<'_> {
     /// Warns of an index register that the program uses and variable indexes change.
     pub(crate) fn check_registers(&mut self) {
         if let (Some(register), Some(index)) = (self.registers.get(), self.indexes) {
-            let what = "this index register does not keep its value";
+            let what = phrase!("this index register does not keep its value");
             let warning = codes::ST_INDEX_REGISTER.at(register, what);
             let warning = warning.other(index, "a variable index is computed in Z0 here");
             self.found.push(warning.help("use Z1 or one above it"));

@@ -34,7 +34,7 @@ impl Compiler<'_> {
         match result.map(|label| (&label.stored, label.of.plain())) {
             Some((Stored::Device(_), Some(ty))) => Ok(ty),
             _ => {
-                let what = format!("the result of `{name}` is not a value");
+                let what = phrase!("the result of `{name}` is not a value", name);
                 fail(codes::ST_TYPE.at(expr.span, what))
             }
         }
@@ -108,7 +108,10 @@ impl Compiler<'_> {
     fn check_given_back(&self, label: &Label, value: &Expr) -> Made<()> {
         let place = self.target(value)?;
         if place.is_variable() {
-            let what = format!("`{}` takes no element with a variable index", label.name);
+            let what = phrase!(
+                "`{name}` takes no element with a variable index",
+                name = label.name
+            );
             let error = codes::ST_UNSUPPORTED.at(value.span, what);
             return fail(error.help("copy it to a label, and back after the call"));
         }
@@ -124,7 +127,7 @@ impl Compiler<'_> {
         is_later: bool,
     ) -> Made<Option<(Ty, OperandKind, Operand)>> {
         let (Stored::Device(device), Some(ty)) = (&label.stored, label.of.plain()) else {
-            let what = "an input that is an array or structure is not compiled yet";
+            let what = phrase!("an input that is an array or structure is not compiled yet");
             return fail(codes::ST_UNSUPPORTED.at(value.span, what));
         };
         let device = self.here(device.clone());
@@ -167,15 +170,19 @@ impl Compiler<'_> {
     fn output(&mut self, label: &Label, target: &Expr) -> Made<()> {
         let place = self.target(target)?;
         let (Stored::Device(device), Some(ty)) = (&label.stored, label.of.plain()) else {
-            let what = "an output that is an array or structure is not compiled yet";
+            let what = phrase!("an output that is an array or structure is not compiled yet");
             return fail(codes::ST_UNSUPPORTED.at(target.span, what));
         };
         if ty.fit(place.ty) != Fit::Fits {
-            let what = format!("this is {}, and the output is {ty}", place.ty);
+            let what = phrase!(
+                "this is {given}, and the output is {ty}",
+                given = place.ty,
+                ty
+            );
             return fail(codes::ST_TYPE.at(target.span, what));
         }
         if place.is_variable() && ty == Ty::Bool {
-            let what = "an output to an element with a variable index is not compiled yet";
+            let what = phrase!("an output to an element with a variable index is not compiled yet");
             return fail(codes::ST_UNSUPPORTED.at(target.span, what));
         }
         let to = self.reached(&place, target.span)?;
@@ -230,9 +237,12 @@ impl Compiler<'_> {
         }
         self.routine = None;
         if let Some(span) = self.too_deep() {
-            let what = "this calls itself, or nests more calls than the PLC can";
+            let what = phrase!("this calls itself, or nests more calls than the PLC can");
             let error = codes::ST_UNSUPPORTED.at(span, what);
-            let help = format!("subroutines call each other in {DEEPEST} levels at most");
+            let help = phrase!(
+                "subroutines call each other in {most} levels at most",
+                most = DEEPEST
+            );
             self.found.push(error.help(help));
         }
     }
@@ -350,7 +360,7 @@ fn bind<'c>(
                 positions.next().and_then(|name| instance.own.own(name))
             }
             None => {
-                let what = "arguments of a function block have names";
+                let what = phrase!("arguments of a function block have names");
                 let error = codes::ST_ARGUMENTS.at(arg.value.span, what);
                 return fail(error.help("write `Instance(Input := value, Output => label)`"));
             }
@@ -358,16 +368,17 @@ fn bind<'c>(
         let span = arg.name.as_ref().map_or(arg.value.span, |name| name.span);
         let Some(label) = label.filter(|label| label.role != Role::Own) else {
             let what = match &arg.name {
-                Some(name) => format!(
-                    "`{}` has no input or output `{}`",
-                    unit.name.text, name.text
+                Some(name) => phrase!(
+                    "`{block}` has no input or output `{name}`",
+                    block = unit.name.text,
+                    name = name.text
                 ),
-                None => format!("`{}` has fewer inputs", unit.name.text),
+                None => phrase!("`{block}` has fewer inputs", block = unit.name.text),
             };
             return fail(codes::ST_ARGUMENTS.at(span, what));
         };
         if bound.iter().any(|(before, _)| before.name == label.name) {
-            let what = format!("`{}` is given twice", label.name);
+            let what = phrase!("`{name}` is given twice", name = label.name);
             return fail(codes::ST_ARGUMENTS.at(span, what));
         }
         bound.push((label, arg));
@@ -378,7 +389,11 @@ fn bind<'c>(
                 && !bound.iter().any(|(given, _)| given.name == label.name)
         });
         if let Some(missing) = missing {
-            let what = format!("`{}` of `{}` is not given", missing.name, unit.name.text);
+            let what = phrase!(
+                "`{name}` of `{block}` is not given",
+                name = missing.name,
+                block = unit.name.text
+            );
             let error = codes::ST_ARGUMENTS.at(call.span, what);
             return fail(error.other(missing.span, "declared here"));
         }

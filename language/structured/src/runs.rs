@@ -54,13 +54,13 @@ pub(crate) fn of(tree: &Text, found: &mut Vec<Diagnostic>) -> Vec<Run> {
     for program in programs.collect::<Vec<_>>() {
         if !runs.iter().any(|run| run.unit == program.unit) {
             let name = &tree.units[program.unit].name;
-            let what = format!("no task runs `{}`", name.text);
+            let what = phrase!("no task runs `{name}`", name = name.text);
             let warning = codes::ST_UNUSED.at(name.span, what);
             found.push(warning.other(first.head, "the programs that run"));
         }
     }
     if runs.is_empty() && !crate::has_errors(found) {
-        let what = "no task runs a program";
+        let what = phrase!("no task runs a program");
         found.push(codes::ST_SYNTAX.at(first.head, what));
     }
     runs
@@ -87,7 +87,10 @@ fn configured(tree: &Text, all: &Configuration, found: &mut Vec<Diagnostic>) -> 
         let mut units = tree.units.iter();
         let unit = units.position(|one| one.kind == UnitKind::Program && is_this(&one.name));
         let Some(unit) = unit else {
-            let what = format!("there is no program `{}` in structured text", program.text);
+            let what = phrase!(
+                "there is no program `{program}` in structured text",
+                program = program.text
+            );
             let error = codes::ST_UNKNOWN_NAME.at(program.span, what);
             found.push(error.help("add its file, or leave out the line"));
             continue;
@@ -110,7 +113,7 @@ fn configured(tree: &Text, all: &Configuration, found: &mut Vec<Diagnostic>) -> 
                 every: every.get(&name).copied().flatten(),
             }),
             None => {
-                let what = format!("there is no task `{}`", task.text);
+                let what = phrase!("there is no task `{task}`", task = task.text);
                 found.push(codes::ST_UNKNOWN_NAME.at(task.span, what));
             }
         }
@@ -138,7 +141,7 @@ fn settings(task: &Task, found: &mut Vec<Diagnostic>) -> (i64, Option<(i64, Span
                 every = Some((number, value.span));
             }
             ("INTERVAL", Some(_)) => {
-                let what = "an interval is a multiple of 10 ms, up to 327.67 s";
+                let what = phrase!("an interval is a multiple of 10 ms, up to 327.67 s");
                 found.push(codes::ST_LITERAL.at(value.span, what));
             }
             ("PRIORITY" | "INTERVAL", None) => {
@@ -146,14 +149,14 @@ fn settings(task: &Task, found: &mut Vec<Diagnostic>) -> (i64, Option<(i64, Span
             }
             ("SINGLE", _) if is_always(value) => {}
             ("SINGLE", _) => {
-                let what = "tasks that a bit or an interrupt starts are not compiled yet";
+                let what = phrase!("tasks that a bit or an interrupt starts are not compiled yet");
                 let error = codes::ST_UNSUPPORTED.at(value.span, what);
                 found.push(
                     error.help("run the program in each scan, with `IF` around its statements"),
                 );
             }
             _ => {
-                let what = format!("a task has no setting `{}`", key.text);
+                let what = phrase!("a task has no setting `{key}`", key = key.text);
                 let error = codes::ST_ARGUMENTS.at(key.span, what);
                 found.push(error.help("it has INTERVAL, PRIORITY and SINGLE"));
             }
@@ -198,7 +201,7 @@ pub(crate) fn declared_twice(tree: &Text, found: &mut Vec<Diagnostic>) {
 
 /// That a name is declared again.
 fn twice(name: &Name, before: Span) -> Diagnostic {
-    let what = format!("`{}` is declared twice", name.text);
+    let what = phrase!("`{name}` is declared twice", name = name.text);
     let error = codes::ST_DECLARED_TWICE.at(name.span, what);
     error.label("again here").other(before, "first here")
 }
@@ -226,7 +229,7 @@ impl Compiler<'_> {
     /// Jumps over a program while its timer runs; gives the timer, the target of the jump and the number of ticks.
     fn wait(&mut self, (every, span): (i64, Span)) -> Option<(Operand, Device, i64)> {
         let (Some(timer), Some(pointer)) = (self.supply.tick(), self.supply.pointer()) else {
-            let what = "no timer of 10 ms is left for this task";
+            let what = phrase!("no timer of 10 ms is left for this task");
             let error = codes::ST_NO_DEVICE.at(span, what);
             self.found
                 .push(error.help("leave out INTERVAL, and use TON in the program"));

@@ -51,9 +51,12 @@ pub(crate) fn nesting(tokens: &[Lexeme], found: &mut Vec<Diagnostic>) {
         }
         let deep = brackets > DEEPEST || blocks.iter().sum::<usize>() > DEEPEST;
         let what = if deep {
-            format!("this nests deeper than {DEEPEST} levels")
+            phrase!("this nests deeper than {most} levels", most = DEEPEST)
         } else if length > LONGEST {
-            format!("this statement has more than {LONGEST} words and signs")
+            phrase!(
+                "this statement has more than {most} words and signs",
+                most = LONGEST
+            )
         } else {
             continue;
         };
@@ -122,7 +125,7 @@ pub(crate) fn endings(text: &Text, found: &mut Vec<Diagnostic>) {
 /// A keyword is missing after a place; what it would end begins at another.
 fn missing(keyword: &str, after: Span, begins: Span) -> Diagnostic {
     let at = Span::new(after.end, after.end);
-    let error = codes::ST_SYNTAX.at(at, format!("`{keyword}` is missing"));
+    let error = codes::ST_SYNTAX.at(at, phrase!("`{keyword}` is missing", keyword));
     error
         .label("expected at the latest here")
         .other(begins, "this is not closed")

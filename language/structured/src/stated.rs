@@ -5,7 +5,7 @@ use crate::device::{self, Place};
 use crate::labels::{Area, Stored};
 use crate::layout::{Structure, Type};
 use crate::types::Ty;
-use rungc_syntax::{Device, DeviceClass, Diagnostic, OperandKind, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, OperandKind, codes, phrase};
 use std::collections::BTreeMap;
 
 /// The device that a declaration states.
@@ -38,7 +38,7 @@ pub(crate) fn suits(
         .as_ref()
         .map_or(variable.span, |place| place.span);
     let Some(ty) = label.element() else {
-        let what = "a structure gets its devices by itself";
+        let what = phrase!("a structure gets its devices by itself");
         let error = codes::ST_UNSUPPORTED.at(span, what);
         return Err(error.help("leave out `AT`").into());
     };
@@ -65,8 +65,8 @@ pub(crate) fn suits(
         _ => {}
     }
     let what = match label.plain() {
-        Some(ty) => format!("`{operand}` cannot hold {ty}"),
-        None => format!("an array cannot begin at `{operand}`"),
+        Some(ty) => phrase!("`{operand}` cannot hold {ty}", operand, ty),
+        None => phrase!("an array cannot begin at `{operand}`", operand),
     };
     let help = match ty {
         Ty::Bool => "a BOOL is an X, Y, M, S, or a bit of a word",
@@ -87,7 +87,11 @@ pub(crate) fn stated_members(
         let mut members = structure.members.iter();
         let member = members.find(|one| one.name.eq_ignore_ascii_case(&name.text));
         let Some(member) = member else {
-            let what = format!("`{}` has no member `{}`", structure.name, name.text);
+            let what = phrase!(
+                "`{name}` has no member `{member}`",
+                name = structure.name,
+                member = name.text
+            );
             return Err(codes::ST_UNKNOWN_NAME.at(name.span, what).into());
         };
         let mut found = Vec::new();
@@ -105,11 +109,11 @@ pub(crate) fn stated_members(
             _ => None,
         };
         let Some(device) = device else {
-            let what = "a member is at a device that is not part of another";
+            let what = phrase!("a member is at a device that is not part of another");
             return Err(codes::ST_NO_DEVICE.at(place.span, what).into());
         };
         if devices.insert(name.text.to_uppercase(), device).is_some() {
-            let what = format!("`{}` is given twice", name.text);
+            let what = phrase!("`{name}` is given twice", name = name.text);
             return Err(codes::ST_DECLARED_TWICE.at(name.span, what).into());
         }
     }

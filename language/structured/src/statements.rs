@@ -8,7 +8,7 @@ use crate::fold;
 use crate::literal::Const;
 use crate::types::Ty;
 use crate::values::constant_operand;
-use rungc_syntax::{Device, Operand, OperandKind, Span, codes};
+use rungc_syntax::{Device, Operand, OperandKind, Span, codes, phrase};
 use std::rc::Rc;
 
 /// Characters of a statement that stand above its rung.
@@ -220,7 +220,7 @@ impl Compiler<'_> {
             true => Ok(ty),
             false => fail(codes::ST_TYPE.at(
                 of.span,
-                format!("CASE takes a whole number, and this is {ty}"),
+                phrase!("CASE takes a whole number, and this is {ty}", ty),
             )),
         });
         let ty = match checked {
@@ -296,7 +296,7 @@ impl Compiler<'_> {
                 None => low,
             };
             if high < low {
-                let what = "this range is empty: its end is below its beginning";
+                let what = phrase!("this range is empty: its end is below its beginning");
                 return fail(codes::ST_LITERAL.at(span, what));
             }
             if let Some((.., before)) = seen.iter().find(|(a, b, _)| low <= *b && *a <= high) {
@@ -346,11 +346,11 @@ impl Compiler<'_> {
         let checked = self.target(&for_.variable).and_then(|counter| {
             let (ty, span) = (counter.ty, for_.variable.span);
             if !ty.is_whole() || ty.is_unsigned() {
-                let what = format!("FOR counts an INT or DINT, and this is {ty}");
+                let what = phrase!("FOR counts an INT or DINT, and this is {ty}", ty);
                 return fail(codes::ST_TYPE.at(span, what));
             }
             if counter.is_variable() {
-                let what = "a counter of FOR with a variable index is not compiled yet";
+                let what = phrase!("a counter of FOR with a variable index is not compiled yet");
                 return fail(codes::ST_UNSUPPORTED.at(span, what));
             }
             let kind = counter.operand;

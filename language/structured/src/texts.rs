@@ -105,10 +105,11 @@ pub(crate) fn constant(text: &str, most: u16, span: Span) -> Result<SmolStr, Box
 
 /// A literal with a character that a text does not hold.
 fn not_held(span: Span) -> Box<Diagnostic> {
-    let what = "this text has a character that STRING does not hold";
+    let what = phrase!("this text has a character that STRING does not hold");
     let error = codes::ST_LITERAL.at(span, what);
-    let help = "it holds ASCII; others are written by their number: `$E9`, and `$$` is one `$`";
-    error.help(help).into()
+    error
+        .help("it holds ASCII; others are written by their number: `$E9`, and `$$` is one `$`")
+        .into()
 }
 
 /// A character after `$`: by its letter, or by two hexadecimal digits.
@@ -174,7 +175,7 @@ impl Compiler<'_> {
     /// The type of a call of a function, which has to fit its arguments.
     pub(crate) fn type_of_text(&self, function: Function, args: &[Arg], expr: &Expr) -> Made<Ty> {
         if let Some(arg) = args.iter().find_map(|arg| arg.name.as_ref()) {
-            let what = "arguments of functions of the library have no names";
+            let what = phrase!("arguments of functions of the library have no names");
             return fail(codes::ST_ARGUMENTS.at(arg.span, what));
         }
         let (least, most, usage) = function.usage();
@@ -194,10 +195,7 @@ impl Compiler<'_> {
             match self.ty(&arg.value)? {
                 Ty::Text(length) => lengths.push(length),
                 ty => {
-                    let what = phrase!(
-                        "this is {ty}, where a STRING is expected",
-                        ty = ty.to_string()
-                    );
+                    let what = phrase!("this is {ty}, where a STRING is expected", ty);
                     return fail(codes::ST_TYPE.at(arg.value.span, what));
                 }
             }

@@ -1,6 +1,6 @@
 //! Types of values, and which of them go together.
 
-use std::fmt;
+use rungc_syntax::{Argument, Say, phrase};
 
 /// Type of a label, device or expression.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -168,26 +168,23 @@ impl Ty {
     }
 }
 
-impl fmt::Display for Ty {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Ty::Text(length) = self {
-            return write!(f, "a STRING({length})");
-        }
-        f.write_str(match self {
-            Ty::Text(_) => "a STRING",
-            Ty::Bool => "a BOOL",
-            Ty::Int => "an INT",
-            Ty::Word => "a WORD",
-            Ty::Dint => "a DINT",
-            Ty::Dword => "a DWORD",
-            Ty::Real => "a REAL",
-            Ty::Time => "a TIME",
-            Ty::Timer => "a timer or counter",
-            Ty::WideCounter => "a counter of 32 bits",
-            Ty::Raw16 => "a register of 16 bits",
-            Ty::Raw32 => "a group of 32 bits",
-            Ty::Integer => "a whole number",
-            Ty::Fraction => "a number with a fraction",
+impl Say for Ty {
+    fn said(&self) -> Argument {
+        Argument::Phrase(match self {
+            Ty::Text(length) => phrase!("a STRING({length})", length),
+            Ty::Bool => phrase!("a BOOL"),
+            Ty::Int => phrase!("an INT"),
+            Ty::Word => phrase!("a WORD"),
+            Ty::Dint => phrase!("a DINT"),
+            Ty::Dword => phrase!("a DWORD"),
+            Ty::Real => phrase!("a REAL"),
+            Ty::Time => phrase!("a TIME"),
+            Ty::Timer => phrase!("a timer or counter"),
+            Ty::WideCounter => phrase!("a counter of 32 bits"),
+            Ty::Raw16 => phrase!("a register of 16 bits"),
+            Ty::Raw32 => phrase!("a group of 32 bits"),
+            Ty::Integer => phrase!("a whole number"),
+            Ty::Fraction => phrase!("a number with a fraction"),
         })
     }
 }

@@ -22,7 +22,7 @@ impl Compiler<'_> {
         }
         match &expr.kind {
             ExprKind::Number(text) | ExprKind::Typed(text) => {
-                fail(codes::ST_LITERAL.at(expr.span, format!("`{text}` is not a value")))
+                fail(codes::ST_LITERAL.at(expr.span, phrase!("`{text}` is not a value", text)))
             }
             ExprKind::Unread | ExprKind::Initial(_) => Err(Vec::new()),
             ExprKind::Call(of, args) => self.type_of_call(of, args, expr),
@@ -31,14 +31,14 @@ impl Compiler<'_> {
                 match ty {
                     ty if ty.is_bit() => Ok(Ty::Bool),
                     _ => {
-                        let what = format!("NOT takes a BOOL, and this is {ty}");
+                        let what = phrase!("NOT takes a BOOL, and this is {ty}", ty);
                         fail(codes::ST_TYPE.at(of.span, what))
                     }
                 }
             }
             ExprKind::Neg(of) => match self.ty(of)? {
                 ty if ty.is_bit() && ty == Ty::Bool || ty.is_unsigned() => {
-                    fail(codes::ST_TYPE.at(expr.span, format!("{ty} has no negative values")))
+                    fail(codes::ST_TYPE.at(expr.span, phrase!("{ty} has no negative values", ty)))
                 }
                 ty => Ok(ty),
             },
@@ -62,13 +62,18 @@ impl Compiler<'_> {
             return Ok(Ty::Bool);
         }
         let misfit = || {
-            let error = codes::ST_TYPE.at(span, format!("`{}` joins {a} and {b}", op.sign()));
+            let error = codes::ST_TYPE.at(
+                span,
+                phrase!("`{sign}` joins {a} and {b}", a, b, sign = op.sign()),
+            );
             let error = error
-                .other(left.span, format!("{a}"))
-                .other(right.span, format!("{b}"));
+                .other(left.span, phrase!("this is {given}", given = a))
+                .other(right.span, phrase!("this is {given}", given = b));
             let converts = a.conversion(b).or_else(|| b.conversion(a));
             fail(match converts {
-                Some(function) => error.help(format!("convert one side: `{function}(…)`")),
+                Some(function) => {
+                    error.help(phrase!("convert one side: `{function}(…)`", function))
+                }
                 None => error,
             })
         };
@@ -99,7 +104,11 @@ impl Compiler<'_> {
         match args {
             [arg] => Ok(&arg.value),
             _ => {
-                let what = format!("`{name}` takes one argument, and {} are given", args.len());
+                let what = phrase!(
+                    "`{name}` takes one argument, and {given} are given",
+                    name,
+                    given = args.len()
+                );
                 fail(codes::ST_ARGUMENTS.at(expr.span, what))
             }
         }
@@ -114,7 +123,7 @@ impl Compiler<'_> {
             let arg = self.only(name, args, expr)?;
             let ty = self.ty(arg)?;
             if ty.fit(from) != Fit::Fits {
-                let what = format!("`{name}` takes {from}, and this is {ty}");
+                let what = phrase!("`{name}` takes {from}, and this is {ty}", name, from, ty);
                 return fail(codes::ST_TYPE.at(arg.span, what));
             }
             return Ok(to);
@@ -151,10 +160,14 @@ impl Compiler<'_> {
                 Ty::Text(most) => error.help(phrase!("cut it: `LEFT(…, {most})`", most)),
                 _ => error,
             },
-            Some(function) => error.help(format!("write `{function}(…)`")),
+            Some(function) => error.help(phrase!("write `{function}(…)`", function)),
             None => error,
         };
-        let what = format!("this is {of}, where {ty} is expected");
+        let what = phrase!(
+            "this is {given}, where {expected} is expected",
+            given = of,
+            expected = ty
+        );
         match of.fit(ty) {
             Fit::Fits => Ok(()),
             Fit::Loses => fail(help(codes::ST_LOSES.at(expr.span, what))),
@@ -343,7 +356,7 @@ impl Compiler<'_> {
         }
         let source = self.operand(arg, from)?;
         if steps == Steps::Low && !matches!(source.kind, OperandKind::Device(..)) {
-            let what = "a constant or a group of bits is not converted to 16 bits";
+            let what = phrase!("a constant or a group of bits is not converted to 16 bits");
             let error = codes::ST_UNSUPPORTED.at(arg.span, what);
             return fail(error.help("assign it to a label first"));
         }

@@ -11,7 +11,11 @@ use walkdir::{DirEntry, WalkDir};
 const SETTINGS: &str = "rungc.toml";
 
 /// What to do if other files are meant.
-const LIST: &str = "if other files are meant, list them in rungc.toml: `[project] program = [\"Main.st\", \"Valves.st\"]`";
+fn list_them() -> Phrase {
+    phrase!(
+        "if other files are meant, list them in rungc.toml: `[project] program = [\"Main.st\", \"Valves.st\"]`"
+    )
+}
 
 /// Files that are one program, the root first, then by their paths.
 pub(crate) struct Joined {
@@ -232,7 +236,7 @@ impl Folder {
                     file
                 ),
                 label: Phrase::default(),
-                help: LIST.into(),
+                help: list_them(),
             });
         } else if order.len() > 1 {
             let names: Vec<String> = order[1..]
@@ -250,7 +254,7 @@ impl Folder {
                     let file = self.name(used.to);
                     phrase!("`{file}` defines this", file)
                 }),
-                help: LIST.into(),
+                help: list_them(),
             });
         }
         for &used in &program.left_out {
@@ -265,7 +269,9 @@ impl Folder {
                     file
                 ),
                 label: Phrase::default(),
-                help: "move it to a file without PROGRAM, or list both files in rungc.toml".into(),
+                help: phrase!(
+                    "move it to a file without PROGRAM, or list both files in rungc.toml"
+                ),
             });
         }
         let files = order.iter().map(|&at| self.files[at].path.clone());

@@ -124,7 +124,7 @@ pub(super) fn variable<'t>(expression: Rule<'t, Expr>) -> Rule<'t, Expr> {
     let member = any()
         .filter(|lexeme: &Lexeme| matches!(lexeme.token, Token::Word(_) | Token::Number(_)))
         .map_with(|lexeme: Lexeme, e| Suffix::Member(lexeme.token.text().into(), place(e)))
-        .labelled("the name of a member or the number of a bit");
+        .labelled(super::NUMBERED);
     let list = expression.clone().separated_by(sign(",")).at_least(1);
     let index = list
         .collect::<Vec<_>>()

@@ -190,7 +190,7 @@ fn programs_of_the_book_compile() {
         name.ends_with(".st").then_some(program)
     });
     let programs: Vec<_> = programs.collect();
-    assert_eq!(programs.len(), 3);
+    assert_eq!(programs.len(), 4);
     for program in programs {
         module(program, ModelId::Fx3u);
     }

@@ -10,6 +10,12 @@ t-16-bit-instructions-accept-k1-to-k4-32-93de3a41 = 16 位指令可用 K1～K4�
 # 8 and 9 are not octal digits
 t-8-and-9-are-not-octal-digits-42e68c81 = 八进制没有 8 和 9
 
+# `{file}` defines this
+t-file-defines-this-c00c3905 = 在 `{ $file }` 中定义
+
+# `{name}` is defined in `{file}`, which has its own PROGRAM and is left out
+t-name-is-defined-in-file-which-has-its-09ed209b = `{ $name }` 在 `{ $file }` 中定义，该文件自带 PROGRAM，因此不参与编译
+
 # a floating constant starts with E here
 t-a-floating-constant-starts-with-e-here-7f3e85fc = 此处浮点常数以 E 开头
 
@@ -178,6 +184,9 @@ t-if-it-is-yours-delete-the-keyword-in-53fbf3a4 = 如果程序是您的，请在
 # if `{step}` is the step number, put a space after it: `{step} {rest}`
 t-if-step-is-the-step-number-put-a-4fa4337b = 如果 `{ $step }` 是步号，在其后加空格：`{ $step } { $rest }`
 
+# if other files are meant, list them in rungc.toml: `[project] program = ["Main.st", "Valves.st"]`
+t-if-other-files-are-meant-list-them-in-12891b18 = 如果指的是其他文件，请在 rungc.toml 中列出：`[project] program = ["Main.st", "Valves.st"]`
+
 # in the project
 t-in-the-project-b960ecc8 = 工程中
 
@@ -198,6 +207,9 @@ t-k-is-k-2147483648-to-k2147483647-f1863eb9 = K 为 K-2147483648 到 K2147483647
 
 # `{letter}` is U+{code}, not a Latin letter
 t-letter-is-u-code-not-a-latin-letter-80e40692 = `{ $letter }` 是 U+{ $code }，不是拉丁字母
+
+# move it to a file without PROGRAM, or list both files in rungc.toml
+t-move-it-to-a-file-without-program-or-74145eea = 把它移到没有 PROGRAM 的文件中，或在 rungc.toml 中列出两个文件
 
 # name the file `.st`, begin it with `PROGRAM Name` and end it with `END_PROGRAM`
 t-name-the-file-st-begin-it-with-program-1205c230 = 把文件命名为 `.st`，以 `PROGRAM Name` 开头，以 `END_PROGRAM` 结尾
@@ -273,6 +285,12 @@ t-open-the-project-in-its-editor-and-export-3f54d28d = 在编程软件中打开�
 
 # open the project in its editor and save it again
 t-open-the-project-in-its-editor-and-save-b5995ff2 = 在编程软件中打开工程并重新保存
+
+# this file is compiled as a part of `{file}`, the first program that needs it
+t-this-file-is-compiled-as-a-part-of-64875ee5 = 此文件作为 `{ $file }` 的一部分编译，后者是第一个需要它的程序
+
+# this file is compiled with {files}
+t-this-file-is-compiled-with-files-41600289 = 此文件与 { $files } 一起编译
 
 # {prefix} counts in octal, so {prefix}007 is followed by {prefix}010{decimal}
 t-prefix-counts-in-octal-so-prefix-007-is-3abdb41d = { $prefix } 按八进制编号，{ $prefix }007 之后是 { $prefix }010{ $decimal }
