@@ -240,7 +240,8 @@ impl Checked {
         self.errors().next().is_some()
     }
 
-    fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
+    /// The errors among them.
+    pub(crate) fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
         let all = self.diagnostics.iter();
         all.filter(|diagnostic| diagnostic.severity == Severity::Error)
     }
