@@ -36,6 +36,7 @@
 #![deny(missing_docs)]
 
 mod diagnostic;
+pub mod document;
 mod error;
 pub mod explain;
 pub mod index;

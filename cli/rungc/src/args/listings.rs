@@ -1,7 +1,7 @@
-//! Arguments of the commands that show and list programs: `view`, `xref`, `stats`.
+//! Arguments of the commands that show and list programs: `view`, `doc`, `xref`, `stats`.
 
-use super::Inputs;
 use super::values::{code, networks};
+use super::{Input, Inputs};
 use crate::output::OutputPath;
 use clap::{Args, ValueEnum};
 use std::ops::RangeInclusive;
@@ -35,6 +35,19 @@ pub struct ViewArgs {
     /// networks. With several programs, a folder for their pages.
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<OutputPath>,
+    /// Overwrite an existing file.
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `doc`.
+#[derive(Args, Debug)]
+pub struct DocArgs {
+    #[command(flatten)]
+    pub input: Input,
+    /// Page to write (.html), which a browser prints, or the same as data (.json).
+    #[arg(short, long, value_name = "PATH")]
+    pub output: OutputPath,
     /// Overwrite an existing file.
     #[arg(long)]
     pub force: bool,
