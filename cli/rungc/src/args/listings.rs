@@ -67,7 +67,8 @@ pub struct XrefArgs {
     /// Output form.
     #[arg(long, value_enum, default_value_t = XrefTo::Text)]
     pub to: XrefTo,
-    /// File to write. Default: standard output. With several programs, a folder for all outputs.
+    /// File to write; a table also as a workbook (.xlsx). Default: standard output. With several programs, a folder for
+    /// all outputs.
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<OutputPath>,
     /// Overwrite an existing file.
