@@ -47,6 +47,9 @@ pub enum Error {
     /// A moment that a PLC cannot go to.
     #[error("the snapshot is of another program")]
     OtherProgram,
+    /// A question about a program that cannot be read, or has no sense.
+    #[error("{0}")]
+    Question(String),
     /// A name is that of no device, or a value does not fit the device.
     #[error("{0}")]
     Device(String),

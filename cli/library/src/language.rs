@@ -35,16 +35,22 @@ macro_rules! phrases_of {
     };
 }
 
-const ENGLISH: &str = include_str!("../locales/en/report.ftl");
-const CHINESE: &str = include_str!("../locales/zh-CN/report.ftl");
+const ENGLISH: [&str; 2] = [
+    include_str!("../locales/en/report.ftl"),
+    include_str!("../locales/en/document.ftl"),
+];
+const CHINESE: [&str; 2] = [
+    include_str!("../locales/zh-CN/report.ftl"),
+    include_str!("../locales/zh-CN/document.ftl"),
+];
 const CHINESE_CODES: [&str; 16] = codes_of!("zh-CN");
 const CHINESE_PHRASES: [&str; 6] = phrases_of!("zh-CN");
 
 type Bundle = FluentBundle<FluentResource>;
 
-static IN_ENGLISH: LazyLock<Bundle> = LazyLock::new(|| bundle(Language::English, &[ENGLISH]));
+static IN_ENGLISH: LazyLock<Bundle> = LazyLock::new(|| bundle(Language::English, &ENGLISH));
 static IN_CHINESE: LazyLock<Bundle> = LazyLock::new(|| {
-    let files: Vec<_> = [CHINESE]
+    let files: Vec<_> = CHINESE
         .into_iter()
         .chain(CHINESE_CODES)
         .chain(CHINESE_PHRASES)

@@ -30,12 +30,13 @@
 //! A [`Project`] is a program with the settings of its `rungc.toml`; [`Checked`] is what `rungc check` finds in it, as
 //! data ([`Diagnostic`] is serialisable); a [`Program`] is compiled; a [`Plc`] runs one in virtual time, on the
 //! reference interpreter, which all outputs are held to. What the parts below offer in addition is in their own crates:
-//! `rungc-sim` (test files, machines), `rungc-verify` (proofs), `rungc-ladder` (drawings).
+//! `rungc-sim` (test files, machines), `rungc-verify` (certificates), `rungc-ladder` (drawings).
 //!
 //! Start reading at [`Project`].
 #![deny(missing_docs)]
 
 mod diagnostic;
+pub mod document;
 mod error;
 pub mod explain;
 pub mod index;
@@ -49,6 +50,7 @@ pub mod other_model;
 mod plc;
 mod program;
 mod project;
+pub mod prove;
 pub mod recompiled;
 pub mod settings;
 pub mod sources;

@@ -142,6 +142,22 @@ impl Project {
         })))
     }
 
+    /// A program that was read before, and has what its settings say of it.
+    pub fn from_read(
+        file: PathBuf,
+        read: Read,
+        (settings, plc): (Option<Settings>, Option<Plc>),
+        levels: Levels,
+    ) -> Self {
+        Project(Arc::new(Opened {
+            file,
+            settings,
+            read,
+            plc,
+            levels,
+        }))
+    }
+
     /// The file of the program.
     pub fn file(&self) -> &Path {
         &self.0.file
@@ -240,7 +256,8 @@ impl Checked {
         self.errors().next().is_some()
     }
 
-    fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
+    /// The errors among them.
+    pub(crate) fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
         let all = self.diagnostics.iter();
         all.filter(|diagnostic| diagnostic.severity == Severity::Error)
     }

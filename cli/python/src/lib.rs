@@ -3,9 +3,11 @@
 
 mod errors;
 mod plc;
+mod prove;
 
 use errors::{DeviceError, Rejected, RungcError, raised};
 use plc::{Plc, Snapshot};
+use prove::{Answer, Output};
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -114,6 +116,60 @@ impl Project {
         Ok(Plc::new(compiled.map_err(raised)?))
     }
 
+    #[pyo3(
+        signature = (*properties, assume = vec![], free = vec![], scan_ms = None, cleared = false, effort = None),
+        text_signature = "($self, *properties, assume=(), free=(), scan_ms=None, cleared=False, effort=None)"
+    )]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "keywords of Python, each with a default"
+    )]
+    fn prove(
+        &self,
+        py: Python<'_>,
+        properties: Vec<String>,
+        assume: Vec<String>,
+        free: Vec<String>,
+        scan_ms: Option<u32>,
+        cleared: bool,
+        effort: Option<u64>,
+    ) -> PyResult<Vec<Answer>> {
+        let question = prove::question(properties, (assume, free), (scan_ms, cleared, effort));
+        let answers = py.detach(|| self.0.prove(&question));
+        answers.map(Answer::all).map_err(raised)
+    }
+
+    #[pyo3(
+        signature = (older, *, assume = vec![], free = vec![], scan_ms = None, cleared = false, effort = None),
+        text_signature = "($self, older, *, assume=(), free=(), scan_ms=None, cleared=False, effort=None)"
+    )]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "keywords of Python, each with a default"
+    )]
+    fn same_as(
+        &self,
+        py: Python<'_>,
+        older: &Project,
+        assume: Vec<String>,
+        free: Vec<String>,
+        scan_ms: Option<u32>,
+        cleared: bool,
+        effort: Option<u64>,
+    ) -> PyResult<BTreeMap<String, Output>> {
+        let question = prove::question(Vec::new(), (assume, free), (scan_ms, cleared, effort));
+        let outputs = py.detach(|| self.0.same_as(&older.0, &question));
+        outputs.map(Output::by_name).map_err(raised)
+    }
+
+    fn why(&self, py: Python<'_>, device: &str) -> PyResult<String> {
+        let compiled = py.detach(|| self.0.check().compile()).map_err(raised)?;
+        compiled
+            .why(device)
+            .map(|why| why.to_string())
+            .map_err(raised)
+    }
+
     #[pyo3(signature = (width = 100))]
     fn ladder(&self, width: usize) -> String {
         self.0.ladder(width)
@@ -217,6 +273,8 @@ fn _rungc(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Project>()?;
     module.add_class::<Program>()?;
     module.add_class::<Plc>()?;
+    module.add_class::<Answer>()?;
+    module.add_class::<Output>()?;
     module.add_class::<Snapshot>()?;
     module.add_function(wrap_pyfunction!(open, module)?)?;
     module.add_function(wrap_pyfunction!(from_list, module)?)

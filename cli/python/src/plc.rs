@@ -146,6 +146,11 @@ impl Plc {
         self.with(py, |plc| plc.release(name)).map_err(raised)
     }
 
+    fn why(&self, py: Python<'_>, device: &str) -> PyResult<String> {
+        let why = self.with(py, |plc| plc.why(device));
+        why.map(|why| why.to_string()).map_err(raised)
+    }
+
     fn errors(&self, py: Python<'_>) -> Vec<BTreeMap<&'static str, u64>> {
         self.with(py, |plc| {
             let errors = plc.errors().iter();

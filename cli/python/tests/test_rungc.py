@@ -150,3 +150,82 @@ def test_the_plugin_shows_what_a_failed_test_used(pytester):
     result.assert_outcomes(passed=1, failed=1, errors=1)
     result.stdout.fnmatch_lines(["*devices of the PLC*", "*0 ms  X000 = 1*", "*4000 ms  Y000 = 1*"])
     result.stdout.fnmatch_lines(["*name the program*"])
+
+
+#: Both contactors of a motor, with and without an interlock.
+BOTH = "LD X000\nOUT Y000\nLD X001\nOUT Y001\nEND\n"
+ONE = "LD X000\nOUT Y000\nLD X001\nANI Y000\nOUT Y001\nEND\n"
+
+
+def test_properties_are_proved_or_come_with_a_run():
+    (proved,) = rungc.from_list(ONE).prove("never Y000 & Y001")
+    assert proved and proved.verdict == "proved" and proved.run == []
+    assert any("200 ms" in one for one in proved.assumptions)
+    violated, reached = rungc.from_list(BOTH).prove("never Y000 & Y001", "reachable Y001", scan_ms=50)
+    assert not violated and reached
+    (scan,) = violated.run
+    assert scan["set"] == {"X000": 1, "X001": 1} and scan["after"] == {"Y000": 1, "Y001": 1}
+    assert "X000 = 1, X001 = 1" in str(violated)
+    (late,) = rungc.from_list(DELAY).prove("whenever X000 then Y000 within 1s")
+    assert late.verdict == "violated"
+    always_late = "LD M8000\nOUT T0 K20\nLD T0\nOUT Y000\nLD X000\nOUT Y001\nEND\n"
+    (vacuous,) = rungc.from_list(always_late).prove("never Y001 & !X000", assume=["!Y000"])
+    assert vacuous.verdict == "vacuous" and not vacuous
+
+
+def test_a_run_that_was_found_happens():
+    project = rungc.from_list(BOTH)
+    (violated,) = project.prove("never Y000 & Y001")
+    plc = project.start()
+    for part in violated.run:
+        for name, value in part["set"].items():
+            plc[name] = value == 1
+        plc.scan(part["scans"])
+    assert plc["Y000"] and plc["Y001"]
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("Y000", "a property is"),
+        ("never Y000 &", "\\^"),
+        ("never Y777", "Y777 does not exist"),
+        ("whenever X000 then Y000 within soon", "soon"),
+        ("never X000 & !X000", "can never hold"),
+    ],
+)
+def test_properties_that_cannot_be_read_say_why(text, why):
+    with pytest.raises(rungc.Error, match=why):
+        rungc.from_list(ONE).prove(text)
+
+
+def test_questions_without_sense_raise():
+    project = rungc.from_list(ONE)
+    with pytest.raises(rungc.Error, match="no property"):
+        project.prove()
+    with pytest.raises(rungc.Error, match="32767 ms"):
+        project.prove("never Y000", scan_ms=0)
+    with pytest.raises(rungc.DeviceError):
+        project.prove("never Y000", free=["Q5"])
+    with pytest.raises(rungc.Rejected):
+        rungc.from_list("OTU Y000\nEND\n").prove("never Y000")
+    with pytest.raises(rungc.Error, match="different models"):
+        project.same_as(rungc.from_list(ONE, model="fx1s"))
+
+
+def test_outputs_are_compared_with_an_older_program():
+    outputs = rungc.from_list(ONE).same_as(rungc.from_list(BOTH))
+    assert {name: output.verdict for name, output in outputs.items()} == {"Y000": "same", "Y001": "differs"}
+    assert outputs["Y000"] and not outputs["Y001"]
+    assert outputs["Y001"].reason == "it differs after 1 scan"
+
+
+def test_devices_say_why_they_are_off():
+    project = rungc.from_list(DELAY)
+    assert "T0" in project.why("Y000")
+    plc = project.start()
+    plc["X000"] = True
+    plc.run(ms=1000)
+    assert "T0" in plc.why("Y000")
+    with pytest.raises(rungc.DeviceError):
+        plc.why("Y001")

@@ -34,7 +34,7 @@ pub use forms::{
     ConvertArgs, ConvertTo, LineArgs, McFrame, ModbusEnd, NamesFile, PlcArgs, PlcopenBody,
     ReadArgs, ReadFrom, RtuFormat,
 };
-pub use listings::{StatsArgs, StatsTo, ViewArgs, XrefArgs, XrefTo};
+pub use listings::{DocArgs, StatsArgs, StatsTo, ViewArgs, XrefArgs, XrefTo};
 pub use lsp::LspArgs;
 pub use mcp::McpArgs;
 pub use properties::Properties;
@@ -140,6 +140,10 @@ pub enum Command {
     Explore(ExploreArgs),
     /// Draw a program as a ladder diagram.
     View(ViewArgs),
+    /// Write the documentation of a machine: terminals, what drives each output, timers, instructions, open questions.
+    ///
+    /// One page with links into the ladder, for whoever inherits the machine, in the language of the reports.
+    Doc(DocArgs),
     /// List the instructions that read, write, set and reset each device.
     Xref(XrefArgs),
     /// Explain why a device is on or off: which contacts, timers and states keep it so.

@@ -64,6 +64,7 @@ pub fn main() -> ExitCode {
         Command::Verify(args) => commands::verify::run(args, cx),
         Command::Explore(args) => commands::explore::run(args, cx),
         Command::View(args) => commands::view::run(args, cx),
+        Command::Doc(args) => commands::doc::run(args, cx),
         Command::Xref(args) => commands::xref::run(args, cx),
         Command::Why(args) => commands::why::run(args, cx),
         Command::Watch(args) => commands::watch::run(args, cx),

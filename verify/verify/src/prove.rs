@@ -346,7 +346,7 @@ pub(crate) fn search(
     {
         return found.into();
     }
-    while !limit.is_over() && scans.hunt.spurious.is_none() {
+    while !limit.is_over() && !scans.hunt.has_ended() {
         if let Some(verdict) = scans.hunt.step() {
             return verdict.into();
         }

@@ -1,5 +1,7 @@
 //! Properties as users request them: conditions read for a program, and what is known of its surroundings.
 
+mod statement;
+
 use crate::property::is_possible;
 use rungc_analysis::resolve::resolve;
 use rungc_analysis::xref::{CrossReference, Reach, Use, UseKind};
@@ -118,6 +120,26 @@ impl Reader<'_> {
                 why: "this condition can never hold, so no run would be left".to_string(),
             }),
         }
+    }
+
+    /// A property as a statement: `never Y000 & Y001`, `whenever X000 then Y000 within 500ms`,
+    /// `stays M0 after X001 until X002`. Words in quotes are comments.
+    ///
+    /// # Errors
+    /// Description of the mistake, with its place.
+    pub fn statement(&self, text: &str) -> Result<Property, ParseError> {
+        let kind = statement::read(text)?;
+        for named in kind.conditions() {
+            self.condition(&named.text).map_err(|error| ParseError {
+                at: named.span.start as usize + error.at,
+                why: error.why,
+            })?;
+        }
+        let property = self.property(&kind);
+        property.map_err(|(named, why)| ParseError {
+            at: named.span.start as usize,
+            why,
+        })
     }
 
     /// A property by its kind.

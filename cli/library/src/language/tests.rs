@@ -151,9 +151,13 @@ fn every_code_is_translated_from_its_present_text() {
 
 #[test]
 fn every_message_is_translated_from_its_present_text() {
-    let english = entries(ENGLISH);
-    let chinese: BTreeMap<_, _> = entries(super::CHINESE)
-        .into_iter()
+    let english = ENGLISH
+        .iter()
+        .flat_map(|file| entries(file))
+        .collect::<Vec<_>>();
+    let chinese: BTreeMap<_, _> = super::CHINESE
+        .iter()
+        .flat_map(|file| entries(file))
         .map(|entry| (entry.id.clone(), entry))
         .collect();
     let mut wrong = Vec::new();
@@ -181,8 +185,9 @@ fn every_message_is_translated_from_its_present_text() {
 
 #[test]
 fn files_are_in_the_format_of_fluent() {
-    for file in [ENGLISH, super::CHINESE]
+    for file in ENGLISH
         .iter()
+        .chain(&super::CHINESE)
         .chain(&super::CHINESE_CODES)
     {
         if let Err((_, errors)) = FluentResource::try_new((*file).to_owned()) {

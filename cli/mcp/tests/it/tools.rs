@@ -1,6 +1,6 @@
 //! Each tool, on small programs.
 
-use crate::{REVERSER, call, folder, options};
+use crate::{REVERSER, call, folder, options, session};
 use serde_json::json;
 use std::fs;
 
@@ -303,4 +303,35 @@ fn files_are_written_only_where_that_is_allowed() {
     assert!(write("../evil.il").2 && write("a.sh").2);
     let (why, _, failed) = call(&writing, "check", json!({ "path": "../../etc/passwd" }));
     assert!(failed && why.contains("outside"), "{why}");
+}
+
+/// What a description shows as an example is taken as it stands there.
+#[test]
+fn examples_of_questions_are_questions() {
+    let folder = folder(&[("a.il", REVERSER)]);
+    let options = options(folder.path(), false);
+    let answers = session(&options, &[("tools/list", json!({}))]);
+    let tools = answers[0]["result"]["tools"].as_array().unwrap();
+    let tool = tools.iter().find(|tool| tool["name"] == "verify").unwrap();
+    let parameters = tool["inputSchema"]["properties"].as_object().unwrap();
+    let mut tried = 0;
+    for (name, parameter) in parameters {
+        let text = parameter["description"].as_str().unwrap();
+        let Some((from, to)) = text.find('[').zip(text.find(']')) else {
+            continue;
+        };
+        let example: serde_json::Value = serde_json::from_str(&text[from..=to]).unwrap();
+        let mut arguments = json!({ "path": "a.il" });
+        if matches!(name.as_str(), "assume" | "free") {
+            arguments["never"] = json!(["Y000 & Y001"]);
+        }
+        arguments[name] = example;
+        let (why, data, failed) = call(&options, "verify", arguments);
+        assert!(
+            !failed && data["results"][0]["verdict"].is_string(),
+            "{name}: {why}"
+        );
+        tried += 1;
+    }
+    assert_eq!(tried, 6);
 }

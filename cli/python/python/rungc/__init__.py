@@ -9,9 +9,11 @@ True
 """
 
 from ._rungc import (
+    Answer,
     DeviceError,
     Diagnostic,
     Error,
+    Output,
     Plc,
     Program,
     Project,
@@ -23,9 +25,11 @@ from ._rungc import (
 )
 
 __all__ = [
+    "Answer",
     "DeviceError",
     "Diagnostic",
     "Error",
+    "Output",
     "Plc",
     "Program",
     "Project",

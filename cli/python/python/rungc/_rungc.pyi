@@ -77,11 +77,73 @@ class Project:
         """Compile the program; raises Rejected if it has errors."""
     def start(self) -> Plc:
         """Compile the program, and power on a PLC that runs it."""
+    def prove(
+        self,
+        *properties: str,
+        assume: Sequence[str] = (),
+        free: Sequence[str] = (),
+        scan_ms: int | None = None,
+        cleared: bool = False,
+        effort: int | None = None,
+    ) -> list[Answer]:
+        """Decide properties, as `rungc verify` does; without any, those of rungc.toml.
+
+        properties: "never Y000 & Y001", "always A", "reachable A", "whenever A then B within 2s", "stays A after B
+        until C".
+        assume: conditions that hold after every scan.
+        free: devices that something outside writes although the program does: "M500", "D100..D109".
+        scan_ms: the longest time from one scan to the next; default: that of rungc.toml, else 200.
+        cleared: latched devices begin with 0, not with any value.
+        effort: limit for each property, the same on every machine; default: that of rungc.toml, else 10000.
+        """
+    def same_as(
+        self,
+        older: Project,
+        *,
+        assume: Sequence[str] = (),
+        free: Sequence[str] = (),
+        scan_ms: int | None = None,
+        cleared: bool = False,
+        effort: int | None = None,
+    ) -> dict[str, Output]:
+        """Whether each output is that of an older program in every run with the same inputs, by name."""
+    def why(self, device: str) -> str:
+        """What can switch a device: the instructions that write it, with their conditions."""
     def ladder(self, width: int = 100) -> str:
         """The ladder as text."""
     def svg(self) -> str:
         """The ladder as a picture."""
     def _repr_svg_(self) -> str: ...
+
+@final
+class Answer:
+    """Answer about a property. It is true if the program does what is asked for: proved, or reached."""
+
+    @property
+    def text(self) -> str:
+        """The property."""
+    @property
+    def verdict(self) -> str:
+        """proved, violated, reached, not reachable, not decided or vacuous."""
+    @property
+    def assumptions(self) -> list[str]:
+        """What the verdict rests on."""
+    @property
+    def run(self) -> list[dict[str, Any]]:
+        """The run that was found, equal scans together: ms, scans, scan_ms, power_on, stop, set, after."""
+    def __bool__(self) -> bool: ...
+
+@final
+class Output:
+    """An output beside that of an older program. It is true if both are proved to be the same."""
+
+    @property
+    def verdict(self) -> str:
+        """same, differs, not decided or vacuous."""
+    @property
+    def reason(self) -> str:
+        """After how many scans it differs, or why nothing is known."""
+    def __bool__(self) -> bool: ...
 
 @final
 class Program:
@@ -124,6 +186,8 @@ class Plc:
         """Keep a value whatever the program does."""
     def release(self, name: str) -> None:
         """Release a forced device."""
+    def why(self, device: str) -> str:
+        """Why a device is on or off, with all else as it is now."""
     def errors(self) -> list[dict[str, int]]:
         """Operation errors: code, step, first_ms, times."""
     def save(self) -> Snapshot: ...

@@ -1,7 +1,7 @@
-//! Arguments of the commands that show and list programs: `view`, `xref`, `stats`.
+//! Arguments of the commands that show and list programs: `view`, `doc`, `xref`, `stats`.
 
-use super::Inputs;
 use super::values::{code, networks};
+use super::{Input, Inputs};
 use crate::output::OutputPath;
 use clap::{Args, ValueEnum};
 use std::ops::RangeInclusive;
@@ -40,6 +40,19 @@ pub struct ViewArgs {
     pub force: bool,
 }
 
+/// Arguments of `doc`.
+#[derive(Args, Debug)]
+pub struct DocArgs {
+    #[command(flatten)]
+    pub input: Input,
+    /// Page to write (.html), which a browser prints, or the same as data (.json).
+    #[arg(short, long, value_name = "PATH")]
+    pub output: OutputPath,
+    /// Overwrite an existing file.
+    #[arg(long)]
+    pub force: bool,
+}
+
 /// Arguments of `xref`.
 #[derive(Args, Debug)]
 pub struct XrefArgs {
@@ -54,7 +67,8 @@ pub struct XrefArgs {
     /// Output form.
     #[arg(long, value_enum, default_value_t = XrefTo::Text)]
     pub to: XrefTo,
-    /// File to write. Default: standard output. With several programs, a folder for all outputs.
+    /// File to write; a table also as a workbook (.xlsx). Default: standard output. With several programs, a folder for
+    /// all outputs.
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<OutputPath>,
     /// Overwrite an existing file.

@@ -8,6 +8,7 @@ pub mod convert;
 mod defaults;
 pub mod demo;
 pub mod diff;
+pub mod doc;
 pub mod doctor;
 pub mod explain;
 pub mod explore;

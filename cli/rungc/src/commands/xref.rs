@@ -2,6 +2,7 @@
 
 mod csv;
 mod html;
+mod xlsx;
 
 use super::setting;
 use super::subject::{self, OutputPaths, Subject, option_of};
@@ -17,6 +18,7 @@ use rungc::{Names, lists};
 use rungc_analysis::resolve::resolve;
 use rungc_ladder::build;
 use rungc_lower::compile;
+use std::path::Path;
 
 /// Lists who uses which device.
 pub fn run(args: &XrefArgs, cx: Context) -> Result {
@@ -51,6 +53,7 @@ fn xref(
         return Err(Failure::Because(why));
     }
     let name = findings.name(reporter.many());
+    let is_workbook = output::file(&args.output).is_some_and(is_workbook);
     let (bytes, ending) = match args.to {
         XrefTo::Text => (table.text(args.unused).into_bytes(), "txt"),
         XrefTo::Csv => (csv::table(&table)?, "csv"),
@@ -58,9 +61,23 @@ fn xref(
         XrefTo::Json => (to_json(&table)?.into_bytes(), "json"),
         XrefTo::Io => {
             let list = lists::terminals(&resolved, &ladder, subject.variant, &ranges);
-            (csv::for_spreadsheets(&csv::records(list)?), "io.csv")
+            let table = csv::records(list)?;
+            match is_workbook {
+                true => (table, "io.xlsx"),
+                false => (csv::for_spreadsheets(&table), "io.csv"),
+            }
         }
         XrefTo::Tags => (csv::records(lists::tags(&resolved, &ranges))?, "tags.csv"),
+    };
+    let bytes = match (is_workbook, args.to) {
+        (false, _) => bytes,
+        (true, XrefTo::Csv) => xlsx::workbook("cross reference", &bytes)?,
+        (true, XrefTo::Io) => xlsx::workbook("terminals", &bytes)?,
+        (true, XrefTo::Tags) => xlsx::workbook("tags", &bytes)?,
+        (true, XrefTo::Text | XrefTo::Html | XrefTo::Json) => {
+            let why = "a workbook (.xlsx) holds a table: add --to csv, --to io or --to tags";
+            return Err(Failure::Because(format!("--output: {why}")));
+        }
     };
     if output::file(&args.output).is_none() && args.to == XrefTo::Text {
         let heading = match reporter.many() {
@@ -76,4 +93,10 @@ fn xref(
         }
     }
     Ok(Outcome::of(&findings))
+}
+
+/// Returns true for the name of a workbook of Excel.
+fn is_workbook(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("xlsx"))
 }

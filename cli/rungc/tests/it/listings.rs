@@ -1,6 +1,8 @@
 //! Cross references, counts, and lists laid out.
 
+use crate::common::clients::{python, succeeds};
 use crate::common::{MOTOR, code, folder, rungc, shown, text};
+use std::fs;
 
 const USES: &str = "\
 ;! D10 = speed\n;! X000 = start\nLD X0\nDMOV K5 D10\nDMOV D11 D20\nMOV K2M0 D0Z1\nBMOV D100 D200 D0\nLDI T0\nOUT T0 D5\nOUT Y0\nLD M8013\n\
@@ -61,6 +63,49 @@ fn terminals_and_tags_are_tables() {
     // A heading, and 24 inputs and 16 outputs.
     let all = text(&bytes(&["--model", "h2u-2416"]));
     assert_eq!(all.lines().count(), 1 + 24 + 16);
+}
+
+/// What openpyxl reads, if it is there; and the bytes, which are the same each time.
+#[test]
+fn tables_are_workbooks_too() {
+    let program = format!(";! X001 = 007\n;! Y001 = 灯 <1>\n{USES}");
+    let folder = folder(&[("uses.il", program.as_bytes())]);
+    for (to, sheet, first) in [
+        (
+            "io",
+            "terminals",
+            serde_json::json!(["X001", "007", "contact", "4"]),
+        ),
+        ("tags", "tags", serde_json::json!("X000")),
+        ("csv", "cross reference", serde_json::json!("X000")),
+    ] {
+        let file = format!("{to}.xlsx");
+        let write = |file: &str| {
+            let args = ["xref", "uses.il", "--to", to, "-o", file];
+            assert_eq!(code(folder.path(), &args), 0, "{to}");
+            fs::read(folder.path().join(file)).unwrap()
+        };
+        let bytes = write(&file);
+        assert_eq!(bytes, write("again.xlsx"), "{to}");
+        fs::remove_file(folder.path().join("again.xlsx")).unwrap();
+        let Some(mut client) = python("openpyxl", "workbook.py") else {
+            continue;
+        };
+        client.arg(folder.path().join(&file));
+        let read: serde_json::Value = serde_json::from_str(&succeeds(client)).unwrap();
+        assert_eq!(
+            (&read[0], &read[1]),
+            (&sheet.into(), &"A2".into()),
+            "{read}"
+        );
+        let rows = read[3].as_array().unwrap();
+        let is_it =
+            |row: &serde_json::Value| *row == first || row.as_array().unwrap().contains(&first);
+        assert!(rows.iter().any(is_it), "{to}: {read}");
+    }
+    // A workbook is edited by people.
+    let again = ["xref", "uses.il", "--to", "io", "-o", "io.xlsx"];
+    assert_eq!(code(folder.path(), &again), 2);
 }
 
 #[test]

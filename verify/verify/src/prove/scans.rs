@@ -64,6 +64,8 @@ pub(super) struct Hunt<'a> {
     bounded: Bounded<'a>,
     /// Length of the first run that the interpreter did not confirm.
     pub spurious: Option<usize>,
+    /// True if a run was too long for the limit to be executed on the interpreter.
+    pub is_too_long: bool,
 }
 
 impl<'a> Hunt<'a> {
@@ -80,12 +82,18 @@ impl<'a> Hunt<'a> {
             scan_ms: world.scan_ms,
             bounded: Bounded::new(system, true, limit),
             spurious: None,
+            is_too_long: false,
         }
+    }
+
+    /// Returns true if nothing can be confirmed any more.
+    pub fn has_ended(&self) -> bool {
+        self.spurious.is_some() || self.is_too_long
     }
 
     /// Searches one scan further, unless nothing can be confirmed any more.
     pub fn step(&mut self) -> Option<Verdict> {
-        if self.spurious.is_some() {
+        if self.has_ended() {
             return None;
         }
         let Step::Violated(trace) = self.bounded.step() else {
@@ -93,6 +101,11 @@ impl<'a> Hunt<'a> {
         };
         let happens = |trace: &Trace| shown(self.question, &self.limit, trace);
         let stretched = replay::stretched(&trace, self.scan_ms);
+        let affords = |trace: &Trace| self.limit.affords(self.question.steps(trace));
+        if stretched.as_ref().is_some_and(|trace| !affords(trace)) {
+            self.is_too_long = true;
+            return None;
+        }
         let Some(trace) = stretched.filter(|trace| happens(trace).is_some()) else {
             self.spurious = Some(self.bounded.scans());
             return None;
@@ -116,5 +129,43 @@ impl<'a> Hunt<'a> {
                 }
             }
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Hunt;
+    use crate::effort::Limit;
+    use crate::prove::{FOREVER_MS, OfProperty, Options, Question, Surroundings, system};
+    use crate::tests::observing;
+    use rungc_sim::property::{Property, parse};
+
+    #[test]
+    fn runs_that_the_limit_does_not_afford_are_not_executed() {
+        // Three scans show that T0 expires after 2000 s; the interpreter counts pulses in each millisecond of them.
+        let property = Property::Never(parse("T0", &|_| Vec::new()).unwrap());
+        let list = "LD X000\nOUT T0 K20000\nLD X001\nPLSY K1000 K0 Y000\nEND\n";
+        let module = observing(list, &property);
+        let options = Options::default();
+        let (encoder, logic) = system(&module, &property, &options);
+        let question = OfProperty {
+            module: &module,
+            property: &property,
+            options: &options,
+            surroundings: Surroundings::new(&encoder, &logic, options.world.scan_ms),
+        };
+        let mut free = options.world.clone();
+        free.scan_ms = FOREVER_MS;
+        let posed = question.posed(&free);
+        for (effort, is_afforded) in [(100, false), (100_000, true)] {
+            let limit = Limit::new(effort, None);
+            let mut hunt = Hunt::new(&question, &options.world, &posed.system, &limit);
+            let found = (0..4).find_map(|_| hunt.step());
+            assert_eq!(
+                (found.is_some(), hunt.is_too_long),
+                (is_afforded, !is_afforded)
+            );
+            assert!(!limit.is_over());
+        }
     }
 }

@@ -208,7 +208,7 @@ impl<'a> Ways<'a> {
         let (posed, part) = self.free_scan_times.begin(effort, self.limit);
         let mut hunt = Hunt::new(self.question, self.world, &posed.system, &part);
         for _ in 0..2 * INDUCTION {
-            if hunt.spurious.is_some() || part.is_over() {
+            if hunt.has_ended() || part.is_over() {
                 break;
             }
             let found = hunt.step();
@@ -216,7 +216,9 @@ impl<'a> Ways<'a> {
                 return found;
             }
         }
-        self.free_runs_are_over = !part.is_over();
+        // More effort affords longer runs, up to all that there is.
+        let may_afford = hunt.is_too_long && effort < self.limit.effort();
+        self.free_runs_are_over = !part.is_over() && !may_afford;
         self.is_open |= hunt.spurious.is_some();
         None
     }
