@@ -272,7 +272,8 @@ mod tests {
     fn names_of_other_files_are_used() {
         let text = "PROGRAM Main\nVAR a, b : INT := Start; c : ARRAY [1..Count] OF Axis; END_VAR\n\
                     VAR_EXTERNAL Level : INT; END_VAR\n\
-                    (* Gone *) // Gone\na := Twice(In := b, Out => x.y) + T#5s + INT#3;\nb := 'Gone$' Gone';\nEND_PROGRAM";
+                    (* Gone *) // Gone\na := Twice(In := b, Out => x.y) + T#5s + INT#3;\n\
+                    b := 'Gone$' Gone';\nEND_PROGRAM";
         let used = "ARRAY AXIS COUNT END_PROGRAM INT LEVEL OF START TWICE X";
         assert_eq!(
             shown(text),

@@ -40,8 +40,10 @@ impl Joined {
     pub(super) fn notes(&self, source: &Source) -> Vec<Diagnostic> {
         let files = source.spans();
         let notes = self.notes.iter().map(|note| {
-            let start = files[note.file].start;
-            let span = Span::new(start + note.span.start, start + note.span.end);
+            // The file may have changed since.
+            let file = files[note.file];
+            let place = |at: u32| file.end.min(file.start + at);
+            let span = Span::new(place(note.span.start), place(note.span.end));
             let found = note.code.at(span, note.message.clone());
             found.label(note.label.clone()).help(note.help.clone())
         });
