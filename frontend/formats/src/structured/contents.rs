@@ -225,7 +225,7 @@ impl Scan<'_> {
         self.word(colons.next().unwrap_or(at) + 1)
     }
 
-    /// A name that is no keyword of declarations.
+    /// Takes a name, which is not a keyword of declarations.
     fn name(&mut self, at: usize) {
         let token = self.tokens[at];
         let name = token.text.to_uppercase();

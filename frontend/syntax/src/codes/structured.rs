@@ -99,12 +99,12 @@ super::codes! {
 
     ST_FILES = "N0240" "files-of-a-program" Note None,
     "files that are compiled as one program",
-    "A file with a PROGRAM that uses functions, function blocks, data types or global labels of other files in its folder is compiled with these files, and with the CONFIGURATION that runs it. A file without a PROGRAM is compiled as a part of the first program that needs it. Other files of the folder are left out, and so are files with a PROGRAM of their own, unless the CONFIGURATION names it. `[project] program` in rungc.toml lists the files of a program in place of this.",
+    "A file with a PROGRAM that uses functions, function blocks, data types or global labels of other files in its folder is compiled with these files, and with the CONFIGURATION that runs it. A file without a PROGRAM is compiled as a part of the first program that needs it. Other files of the folder are left out, and so are files with another PROGRAM, unless the CONFIGURATION names it. `[project] program` in rungc.toml lists the files of a program in place of this.",
     wrong: "",
     right: "";
 
     ST_LEFT_OUT = "N0241" "file-left-out" Note None,
-    "file that defines a missing name, and has a program of its own",
+    "file with another program that defines a missing name",
     "Programs of one folder are not mixed by accident: a file with a PROGRAM is compiled with others only if a CONFIGURATION names the program, or if rungc.toml lists both files.",
     wrong: "",
     right: "";

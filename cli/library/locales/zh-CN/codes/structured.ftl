@@ -79,11 +79,11 @@ W0242 = 变址寄存器被数组的变量下标改写
     .text = 数组的下标不是常数时，在 Z0 中计算，32 位的下标还使用 V0。程序保存在其中的值会丢失。
 
 # files that are compiled as one program
-# A file with a PROGRAM that uses functions, function blocks, data types or global labels of other files in its folder is compiled with these files, and with the CONFIGURATION that runs it. A file without a PROGRAM is compiled as a part of the first program that needs it. Other files of the folder are left out, and so are files with a PROGRAM of their own, unless the CONFIGURATION names it. `[project] program` in rungc.toml lists the files of a program in place of this.
+# A file with a PROGRAM that uses functions, function blocks, data types or global labels of other files in its folder is compiled with these files, and with the CONFIGURATION that runs it. A file without a PROGRAM is compiled as a part of the first program that needs it. Other files of the folder are left out, and so are files with another PROGRAM, unless the CONFIGURATION names it. `[project] program` in rungc.toml lists the files of a program in place of this.
 N0240 = 作为一个程序编译的多个文件
     .text = 带 PROGRAM 的文件如果使用同一文件夹中其他文件的函数、功能块、数据类型或全局标签，就与这些文件以及运行它的 CONFIGURATION 一起编译。没有 PROGRAM 的文件作为第一个需要它的程序的一部分编译。文件夹中的其他文件不参与编译；自带 PROGRAM 的文件也不参与，除非 CONFIGURATION 指名。也可以在 rungc.toml 中用 `[project] program` 列出程序的文件。
 
-# file that defines a missing name, and has a program of its own
+# file with another program that defines a missing name
 # Programs of one folder are not mixed by accident: a file with a PROGRAM is compiled with others only if a CONFIGURATION names the program, or if rungc.toml lists both files.
 N0241 = 定义了所缺名称、但自带程序的文件
     .text = 同一文件夹中的程序不会被意外混合：带 PROGRAM 的文件只有在 CONFIGURATION 指名该程序、或 rungc.toml 列出两个文件时，才与其他文件一起编译。
