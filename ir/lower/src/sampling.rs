@@ -1,4 +1,4 @@
-//! Tells instructions that sample, such as PID, the period of the timer interrupt in whose routine they are
+//! Gives instructions that sample, such as PID, the period of the timer interrupt in whose routine they are
 //! ([`Call::period_ms`](rungc_ir::node::Call::period_ms)).
 //!
 //! A subroutine counts as part of a routine if all its calls come from routines with one period.

@@ -11,6 +11,30 @@ use crate::texts;
 use crate::types::{Fit, Ty};
 use rungc_syntax::{Device, Operand, OperandKind, codes, phrase};
 
+/// An error of a number that no type has.
+fn not_a_value(text: &str, expr: &Expr) -> Made<Ty> {
+    fail(codes::ST_LITERAL.at(expr.span, phrase!("`{text}` is not a value", text)))
+}
+
+/// The type of NOT of an operand.
+fn inverted(of: &Expr, ty: Ty) -> Made<Ty> {
+    match ty.is_bit() {
+        true => Ok(Ty::Bool),
+        false => {
+            let what = phrase!("NOT takes a BOOL, and this is {ty}", ty);
+            fail(codes::ST_TYPE.at(of.span, what))
+        }
+    }
+}
+
+/// The type of the negative of an operand of this type.
+fn negated(expr: &Expr, ty: Ty) -> Made<Ty> {
+    match ty == Ty::Bool || ty.is_unsigned() {
+        true => fail(codes::ST_TYPE.at(expr.span, phrase!("{ty} has no negative values", ty))),
+        false => Ok(ty),
+    }
+}
+
 impl Compiler<'_> {
     /// The type of an expression.
     pub(crate) fn ty(&self, expr: &Expr) -> Made<Ty> {
@@ -21,34 +45,22 @@ impl Compiler<'_> {
             return Ok(Ty::Text(text.chars().count() as u16));
         }
         match &expr.kind {
-            ExprKind::Number(text) | ExprKind::Typed(text) => {
-                fail(codes::ST_LITERAL.at(expr.span, phrase!("`{text}` is not a value", text)))
-            }
+            ExprKind::Number(text) | ExprKind::Typed(text) => not_a_value(text, expr),
             ExprKind::Unread | ExprKind::Initial(_) => Err(Vec::new()),
             ExprKind::Call(of, args) => self.type_of_call(of, args, expr),
-            ExprKind::Not(of) => {
-                let ty = self.ty(of)?;
-                match ty {
-                    ty if ty.is_bit() => Ok(Ty::Bool),
-                    _ => {
-                        let what = phrase!("NOT takes a BOOL, and this is {ty}", ty);
-                        fail(codes::ST_TYPE.at(of.span, what))
-                    }
-                }
+            ExprKind::Not(of) => inverted(of, self.ty(of)?),
+            ExprKind::Neg(of) => negated(expr, self.ty(of)?),
+            ExprKind::Binary(op, left, right) => {
+                let types = both(self.ty(left), self.ty(right))?;
+                self.type_of_binary(*op, (left, right), types)
             }
-            ExprKind::Neg(of) => match self.ty(of)? {
-                ty if ty.is_bit() && ty == Ty::Bool || ty.is_unsigned() => {
-                    fail(codes::ST_TYPE.at(expr.span, phrase!("{ty} has no negative values", ty)))
-                }
-                ty => Ok(ty),
-            },
-            ExprKind::Binary(op, left, right) => self.type_of_binary(*op, left, right),
             _ => Ok(self.place(expr)?.map_or(Ty::Raw16, |place| place.ty)),
         }
     }
 
-    fn type_of_binary(&self, op: Op, left: &Expr, right: &Expr) -> Made<Ty> {
-        let (a, b) = both(self.ty(left), self.ty(right))?;
+    /// The type of two operands that an operator joins, of types `a` and `b`. It is apart from [`ty`](Self::ty), whose
+    /// frames are many on the stack.
+    fn type_of_binary(&self, op: Op, (left, right): (&Expr, &Expr), (a, b): (Ty, Ty)) -> Made<Ty> {
         let span = left.span.to(right.span);
         if op == Op::Power {
             return fail(codes::ST_UNSUPPORTED.at(span, "`**` is not compiled yet"));

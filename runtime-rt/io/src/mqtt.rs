@@ -103,23 +103,7 @@ fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
         .set_connection_timeout(timeout.as_secs().max(1));
     let (sender, news) = mpsc::channel();
     let described = connection.clone();
-    let listen = move || {
-        let mut accepted = false;
-        for event in events.iter() {
-            let news = match event {
-                Ok(Event::Incoming(Packet::ConnAck(_))) => News::Connected,
-                Ok(Event::Incoming(Packet::Publish(publish))) => News::Value(publish),
-                Ok(_) => continue,
-                Err(error) if is_too_long(&error) => News::Lost(TOO_LONG.to_string()),
-                Err(error) => News::Lost(explained(&error, &described, accepted)),
-            };
-            accepted = true;
-            let is_over = matches!(news, News::Lost(_));
-            if sender.send(news).is_err() || is_over {
-                break;
-            }
-        }
-    };
+    let listen = move || listen(events, &sender, &described);
     let thread = thread::Builder::new()
         .name("mqtt".to_string())
         .spawn(listen);
@@ -148,6 +132,25 @@ fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
         broker.publish(topic, ONLINE.to_string());
     }
     Ok(Box::new(broker))
+}
+
+/// Passes what a broker sends on, until the connection is lost.
+fn listen(mut events: rumqttc::Connection, sender: &mpsc::Sender<News>, connection: &Connection) {
+    let mut accepted = false;
+    for event in events.iter() {
+        let news = match event {
+            Ok(Event::Incoming(Packet::ConnAck(_))) => News::Connected,
+            Ok(Event::Incoming(Packet::Publish(publish))) => News::Value(publish),
+            Ok(_) => continue,
+            Err(error) if is_too_long(&error) => News::Lost(TOO_LONG.to_string()),
+            Err(error) => News::Lost(explained(&error, connection, accepted)),
+        };
+        accepted = true;
+        let is_over = matches!(news, News::Lost(_));
+        if sender.send(news).is_err() || is_over {
+            break;
+        }
+    }
 }
 
 /// Returns true if the broker has sent a packet that is too long.

@@ -209,7 +209,7 @@ fn the_last_will_says_that_the_plc_is_gone() {
     shows(port, "plant/status", "offline");
 }
 
-/// A message that is no value is reported, and the connection remains, however often the broker delivers it.
+/// A message without a value is reported, and the connection remains, however often the broker delivers it.
 #[test]
 fn long_messages_do_not_end_a_connection() {
     if !is_there() {

@@ -58,8 +58,8 @@ impl Topic {
     }
 }
 
-/// Takes the payload of a topic. One with a value that does not fit is left out; an empty payload, by which brokers say that a
-/// retained one is deleted, changes nothing.
+/// Takes the payload of a topic. One with a value that does not fit is left out; an empty payload, by which brokers say
+/// that a retained one is deleted, changes nothing.
 pub fn take(
     connection: &Connection,
     topic: &str,
