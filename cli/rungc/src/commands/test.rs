@@ -105,7 +105,10 @@ impl Chosen {
         match &args.filter {
             Some(filter) => format!("no cases to run: no `file::name` contains `{filter}`"),
             None => {
-                let paths = self.paths.iter().map(|path| format!("`{}`", path.display()));
+                let paths = self
+                    .paths
+                    .iter()
+                    .map(|path| format!("`{}`", path.display()));
                 let paths = paths.collect::<Vec<_>>().join(", ");
                 format!("no cases to run in {paths}: test files are named `*.plctest.toml`")
             }
