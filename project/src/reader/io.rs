@@ -3,7 +3,7 @@
 use super::{Reader, Value, span};
 use crate::Project;
 use crate::connections::Connected;
-use rungc_host::io::{Connection, overlap};
+use rungc_host::io::{Connection, Part, overlap};
 use rungc_models::runs::rt_class;
 use rungc_syntax::{Span, codes};
 use toml::de::{DeTable, DeValue};
@@ -32,8 +32,12 @@ impl Reader {
         let fault = fault.and_then(|fault| Some((rt_class(fault.class)?, fault.first)));
         if let Some(overlap) = overlap(&project.connections(), fault) {
             let connected = &project.io[overlap.connection];
-            let at = overlap.row.and_then(|row| connected.rows.get(row));
-            let at = at.copied().unwrap_or(connected.fault);
+            let at = match overlap.part {
+                Part::Row(row) => connected.rows.get(row).copied(),
+                Part::Fault => Some(connected.fault),
+                Part::Status => None,
+            };
+            let at = at.unwrap_or(connected.span);
             self.misconnected(at, overlap.message, overlap.help);
         }
     }
@@ -96,6 +100,7 @@ fn text<'v>(value: &'v Value<'_>) -> Option<&'v str> {
         DeValue::String(text) => Some(text),
         DeValue::Integer(number) if number.radix() == 10 => Some(number.as_str()),
         DeValue::Boolean(true) => Some("true"),
+        DeValue::Boolean(false) => Some("false"),
         _ => None,
     }
 }

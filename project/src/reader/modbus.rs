@@ -38,12 +38,19 @@ impl Reader {
             Line::Port(_) => (least..=247, None),
             Line::Host(_) => (0..=255, Some(USUAL_UNIT)),
         };
+        let address = self.number(table, at, "address", 0..=0xffff, None)?;
+        let count = self.number(table, at, "count", 1..=transfer.most.into(), Some(1))?;
+        if address + count > 0x1_0000 {
+            let place = table.get("address").map_or(at, |value| span(value.span()));
+            self.wrong(place, "the last address is 65535", "");
+            return None;
+        }
         let row = Row {
             line,
             station: self.number(table, at, "station", stations, usual)? as u8,
             transfer,
-            address: self.number(table, at, "address", 0..=0xffff, None)? as u16,
-            count: self.number(table, at, "count", 1..=transfer.most.into(), Some(1))? as u16,
+            address: address as u16,
+            count: count as u16,
             buffer: match self.row_device(table, "buffer", &[DeviceClass::D])? {
                 Some(device) => device.number,
                 None => {

@@ -80,6 +80,7 @@ fn mistakes_in_rows_of_the_modbus_table() {
         "station = 1\nread = \"coils\"\nwrite = \"coils\"\naddress = 0\nbuffer = \"D0\"",
         "station = 1\nwrite = \"registers\"\naddress = 0\ncount = 121\nbuffer = \"D0\"",
         "station = 1\nread = \"registers\"\naddress = 65536\nbuffer = \"D0\"",
+        "station = 1\nread = \"registers\"\naddress = 65535\ncount = 2\nbuffer = \"D0\"",
         "station = 1\nread = \"registers\"\naddress = 0",
         "station = 1\nread = \"registers\"\naddress = 0\nbuffer = \"M0\"",
         "port = \"COM0\"\nstation = 1\nread = \"registers\"\naddress = 0\nbuffer = \"D0\"",

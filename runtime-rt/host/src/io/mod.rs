@@ -54,7 +54,7 @@ pub use log::timestamp;
 pub use modbus::{Remote, Wire};
 #[cfg(not(target_os = "linux"))]
 pub use no_serial::SerialPort;
-pub use overlap::{Overlap, overlap};
+pub use overlap::{Overlap, Part, overlap};
 pub use ports::cannot_open;
 pub use rtu::{Rtu, SerialLine, silence};
 pub use settings::{Connection, End, Kind, Loss, Place, Row, SettingError, Table};

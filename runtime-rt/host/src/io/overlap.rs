@@ -13,10 +13,21 @@ pub struct Overlap {
     pub message: String,
     /// Suggested remedy.
     pub help: &'static str,
-    /// Index of the connection with the later of both rows.
+    /// Index of the connection with the later of both.
     pub connection: usize,
-    /// Index of that row; `None`: the connection's fault device.
-    pub row: Option<usize>,
+    /// Which of its settings it is.
+    pub part: Part,
+}
+
+/// A setting that gives a device or a place its value.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Part {
+    /// A row, by its index.
+    Row(usize),
+    /// The fault device.
+    Fault,
+    /// The topic that shows whether the PLC is there.
+    Status,
 }
 
 /// The first overlap: a device that two rows read, or that a row reads and a connection shows a fault with; or a
@@ -35,11 +46,12 @@ fn of_devices(connections: &[Connection], retain_fault: Option<(Class, u32)>) ->
             .iter()
             .enumerate()
             .filter(|(_, row)| row.reads);
-        let rows = rows.map(|(at, row)| (row.class, row.first..row.first + row.count, Some(at)));
+        let rows =
+            rows.map(|(at, row)| (row.class, row.first..row.first + row.count, Part::Row(at)));
         let fault = connection
             .fault
-            .map(|(class, number)| (class, number..number + 1, None));
-        for (class, range, row) in rows.chain(fault) {
+            .map(|(class, number)| (class, number..number + 1, Part::Fault));
+        for (class, range, part) in rows.chain(fault) {
             let other = taken
                 .iter()
                 .find(|other| other.0 == class && meet(&other.1, &range));
@@ -49,7 +61,7 @@ fn of_devices(connections: &[Connection], retain_fault: Option<(Class, u32)>) ->
                     message: format!("`{device}` takes its value from two places"),
                     help: "a device takes its value from one place",
                     connection: n,
-                    row,
+                    part,
                 });
             }
             taken.push((class, range));
@@ -79,26 +91,34 @@ fn of_places(connections: &[Connection]) -> Option<Overlap> {
     for (n, connection) in connections.iter().enumerate() {
         let unit = connection.options.get("unit");
         let other = (connection.kind.key(), connection.end.as_str(), unit);
-        for (at, row) in connection.rows.iter().enumerate() {
-            for (name, range, source) in written(connection.kind, row) {
-                let taken = taken.entry((other, name.clone())).or_default();
-                let earlier = taken
-                    .iter()
-                    .find(|(earlier, from)| meet(earlier, &range) && *from != source);
-                if let Some((earlier, _)) = earlier {
-                    let place = match row.end {
-                        End::Name(_) => name,
-                        _ => format!("{name} {}", earlier.start.max(range.start)),
-                    };
-                    return Some(Overlap {
-                        message: format!("`{place}` takes its value from two rows"),
-                        help: "each coil, register, line, topic or file is written by one row",
-                        connection: n,
-                        row: Some(at),
-                    });
-                }
-                taken.push((range, source));
+        let status = connection.options.get("status").into_iter();
+        let status = status.map(|topic| {
+            let of_itself = (Class::X, u32::MAX, n as u32);
+            (Part::Status, topic.clone(), 0..1, of_itself)
+        });
+        let rows = connection.rows.iter().enumerate().flat_map(|(at, row)| {
+            let written = written(connection.kind, row).into_iter();
+            written.map(move |(name, range, source)| (Part::Row(at), name, range, source))
+        });
+        let all: Vec<_> = status.chain(rows).collect();
+        for (part, name, range, source) in all {
+            let taken = taken.entry((other, name.clone())).or_default();
+            let earlier = taken
+                .iter()
+                .find(|(earlier, from)| meet(earlier, &range) && *from != source);
+            if let Some((earlier, _)) = earlier {
+                let place = match connection.kind {
+                    Kind::Mqtt | Kind::Files => name,
+                    _ => format!("{name} {}", earlier.start.max(range.start)),
+                };
+                return Some(Overlap {
+                    message: format!("`{place}` takes its value from two rows"),
+                    help: "each coil, register, line, topic or file is written by one row, or is `status`",
+                    connection: n,
+                    part,
+                });
             }
+            taken.push((range, source));
         }
     }
     None

@@ -1,5 +1,6 @@
 //! Connections, and how their keys and values are read.
 
+use super::topics::address;
 use crate::duration;
 use rungc_rt::Class;
 use rungc_rt::comm::modbus::Limits;
@@ -344,9 +345,12 @@ impl Connection {
         }
     }
 
-    /// Error in the combination of TLS keys.
+    /// Error in the combination of the keys of a broker.
     fn lacks_keys(&self) -> Option<&'static str> {
         let has = |option: &str| self.options.contains_key(option);
+        if has("password-file") && !has("user") {
+            return Some("`password-file` needs `user`");
+        }
         match (has("ca"), has("certificate"), has("key")) {
             (false, false, false) | (true, false, false) | (true, true, true) => None,
             (false, ..) => Some(
@@ -424,13 +428,18 @@ impl Connection {
                 "hold" => self.loss = Loss::Hold,
                 _ => return wrong(String::from("`loss` is \"zero\" or \"hold\"")),
             },
-            _ if key == self.kind.key() => {}
+            _ if key == self.kind.key() => {
+                self.check_end()
+                    .map_err(|message| (message, String::new()))?;
+            }
             _ if self.kind.options().contains(&key) => {
                 self.options.insert(key.to_owned(), value.to_owned());
                 let checked = match key {
+                    _ if value.trim().is_empty() => Err(format!("`{key}` is empty")),
                     "unit" => self.unit().map(drop),
                     "baud" => self.baud().map(drop),
                     "format" => self.format().map(drop),
+                    "status" => check_topic(value),
                     _ => Ok(()),
                 };
                 checked.map_err(|message| (message, String::new()))?;
@@ -444,6 +453,20 @@ impl Connection {
             }
         }
         Ok(())
+    }
+
+    /// Error in the address of the remote end.
+    fn check_end(&self) -> Result<(), String> {
+        let key = self.kind.key();
+        match self.kind {
+            _ if self.end.trim().is_empty() => Err(format!("`{key}` is empty")),
+            Kind::ModbusTcp | Kind::Mqtt => match address(&self.end, 1)? {
+                (host, _) if host.is_empty() => Err(format!("`{}` names no host", self.end)),
+                _ => Ok(()),
+            },
+            Kind::Console if self.end != "true" => Err(format!("`{key}` is `true`")),
+            Kind::ModbusRtu | Kind::Gpio | Kind::Files | Kind::Console => Ok(()),
+        }
     }
 
     fn add_row(&mut self, key: &str, value: &str) -> Result<(), (String, String)> {
@@ -550,10 +573,7 @@ fn end(kind: Kind, class: Class, count: u32, reads: bool, words: &[&str]) -> Res
             }
             Ok(End::Modbus { table, address })
         }
-        (Kind::Mqtt, &[topic]) => match topic.contains(['+', '#']) || topic.starts_with('$') {
-            true => Err(format!("`{topic}` is not the topic of one value")),
-            false => Ok(End::Name(topic.to_owned())),
-        },
+        (Kind::Mqtt, &[topic]) => check_topic(topic).map(|()| End::Name(topic.to_owned())),
         (Kind::Files, &[name]) => Ok(End::Name(name.to_owned())),
         (Kind::Gpio, [offset, flags @ ..]) => {
             let known = |flag: &&str| match *flag {
@@ -570,6 +590,14 @@ fn end(kind: Kind, class: Class, count: u32, reads: bool, words: &[&str]) -> Res
         }
         (Kind::Console, []) => Ok(End::Text),
         _ => Err(cannot()),
+    }
+}
+
+/// Error in the name of a topic.
+fn check_topic(topic: &str) -> Result<(), String> {
+    match topic.contains(['+', '#']) || topic.starts_with('$') {
+        true => Err(format!("`{topic}` is not the topic of one value")),
+        false => Ok(()),
     }
 }
 

@@ -57,6 +57,34 @@ fn mistakes_of_a_connection() {
         errors(&[("modbus-tcp", "a")]),
         "-: a connection without devices"
     );
+    for (end, why) in [
+        (" ", "`mqtt` is empty"),
+        ("h:0", "`0` is not a port"),
+        ("h:99999", "`99999` is not a port"),
+        ("h:", "`` is not a port"),
+        (":5", "`:5` names no host"),
+    ] {
+        let expected = format!("mqtt: {why}");
+        assert_eq!(errors(&[("mqtt", end), ("X0", "read a")]), expected);
+    }
+    for end in ["h", "h:1883", "::1", "[::1]:1883", "10.0.0.5:65535"] {
+        let pairs = [("modbus-tcp", end), ("X0", "read coils 0")];
+        assert!(Connection::read("plant", &pairs).is_ok(), "{end}");
+    }
+    let console = [("console", "false"), ("X0", "read")];
+    assert_eq!(errors(&console), "console: `console` is `true`");
+    let empty = [("files", ""), ("X0", "read a")];
+    assert_eq!(errors(&empty), "files: `files` is empty");
+    let broker = |key, value| errors(&[("mqtt", "h"), ("X0", "read a"), (key, value)]);
+    assert_eq!(broker("client", ""), "client: `client` is empty");
+    assert_eq!(
+        broker("status", "a/#"),
+        "status: `a/#` is not the topic of one value"
+    );
+    assert_eq!(
+        broker("password-file", "p"),
+        "-: `password-file` needs `user`"
+    );
     let rows = [
         ("modbus-tcp", "a"),
         ("unit", "248"),
@@ -146,6 +174,14 @@ allow = [
             "line 4: `M0` takes its value from two places",
         ),
         (
+            "[io.a]\nmqtt = 'h'\nY0 = 'write a'\nY1-Y2 = 'write b/{}'\nstatus = 'b/Y001'\n",
+            "line 4: `b/Y001` takes its value from two rows",
+        ),
+        (
+            "[io.a]\nmqtt = 'h'\nX0 = 'read a'\nstatus = 's'\n[io.b]\nmqtt = 'h'\nX1 = 'read a'\nstatus = 's'\n",
+            "line 8: `s` takes its value from two rows",
+        ),
+        (
             "[io.a]\nfiles = '.'\nY0 = 'write a'\n[io.b]\nfiles = '.'\nX0 = 'read b'\nY1 = 'write a'\n",
             "line 7: `a` takes its value from two rows",
         ),
@@ -159,11 +195,17 @@ allow = [
 #[test]
 fn a_place_is_written_by_one_row() {
     let rows = |kind: &str, rows: &[(&str, &str)]| {
-        let pairs: Vec<_> = [(kind, "x")].iter().chain(rows).copied().collect();
+        let end = if kind == "console" { "true" } else { "x" };
+        let pairs: Vec<_> = [(kind, end)].iter().chain(rows).copied().collect();
         let connection = Connection::read("a", &pairs).unwrap();
-        overlap(&[connection], None).map(|overlap| (overlap.message, overlap.row))
+        overlap(&[connection], None).map(|overlap| (overlap.message, overlap.part))
     };
-    let twice = |place: &str| Some((format!("`{place}` takes its value from two rows"), Some(1)));
+    let twice = |place: &str| {
+        Some((
+            format!("`{place}` takes its value from two rows"),
+            Part::Row(1),
+        ))
+    };
     let pair = |a, b| [("Y000-Y007", a), ("Y010-Y017", b)];
     let modbus = |a, b| rows("modbus-tcp", &pair(a, b));
     assert_eq!(modbus("write coils 0", "write coils 8"), None);

@@ -1,6 +1,6 @@
 //! Connections from a file, for hosts without a library for TOML.
 
-use super::overlap::{Overlap, overlap};
+use super::overlap::{Overlap, Part, overlap};
 use super::settings::{Connection, SettingError};
 
 /// Reads the tables `[io.NAME]` of `rungc.toml`, one key and its value in each line; other tables are skipped.
@@ -109,9 +109,11 @@ impl Lines<'_> {
     fn contradicts(&self, overlap: &Overlap) -> String {
         let is_row = |key: &str| key.starts_with(|c: char| c.is_ascii_uppercase());
         let mut rows = self.pairs.iter().filter(|(_, (key, _))| is_row(key));
-        let pair = match overlap.row {
-            Some(row) => rows.nth(row),
-            None => self.pairs.iter().find(|(_, (key, _))| *key == "fault"),
+        let of_key = |wanted: &str| self.pairs.iter().find(|(_, (key, _))| *key == wanted);
+        let pair = match overlap.part {
+            Part::Row(row) => rows.nth(row),
+            Part::Fault => of_key("fault"),
+            Part::Status => of_key("status"),
         };
         let line = pair.map_or(self.at, |pair| pair.0);
         format!("line {line}: {}; {}", overlap.message, overlap.help)

@@ -4,6 +4,7 @@ use super::json::{self, Value};
 use super::left_out::{LeftOut, shown};
 use super::settings::{Connection, End, Row};
 use std::fs;
+use std::num::NonZeroU16;
 
 /// Stands for the name of the device in the topic of a row.
 const DEVICE: &str = "{}";
@@ -159,8 +160,8 @@ pub fn address(end: &str, usual: u16) -> Result<(String, u16), String> {
         Some((host, _)) if host.contains(':') && !host.ends_with(']') => {
             Ok((end.to_owned(), usual))
         }
-        Some((host, port)) => match port.parse() {
-            Ok(port) => Ok((bare(host), port)),
+        Some((host, port)) => match port.parse::<NonZeroU16>() {
+            Ok(port) => Ok((bare(host), port.get())),
             Err(_) => Err(format!("`{port}` is not a port")),
         },
         None => Ok((end.to_owned(), usual)),
