@@ -1128,6 +1128,11 @@ typedef struct rungc_site {
      * An input has changed that the instruction looks at, perhaps between two scans: it is driven as it was last ([`crate::Needs::signals`]).
      */
     bool signal;
+    /**
+     * Period in milliseconds of the timer interrupt whose routine executes the instruction, if it takes its time from
+     * that ([`crate::Needs::sampled`]); else 0.
+     */
+    uint16_t period_ms;
 } rungc_site;
 
 /**

@@ -13,6 +13,7 @@ struct Site {
     wide: bool,
     drive: Option<ExprId>,
     signal: bool,
+    period_ms: u16,
     slot: u16,
     step: u32,
 }
@@ -27,6 +28,7 @@ impl Writer<'_, '_> {
             wide: call.wide,
             drive: call.drive,
             signal: call.signal,
+            period_ms: call.period_ms,
             slot: call.slot,
             step: call.step,
         };
@@ -73,6 +75,7 @@ impl Writer<'_, '_> {
             wide,
             drive: None,
             signal: false,
+            period_ms: 0,
             slot: 0,
             step,
         };
@@ -86,11 +89,12 @@ impl Writer<'_, '_> {
             wide,
             drive,
             signal,
+            period_ms,
             slot,
             step,
         } = *site;
         let always = drive.is_none_or(|e| *self.module.expr(e) == Expr::Bit(true));
-        if always && slot == 0 {
+        if always && slot == 0 && period_ms == 0 {
             let function = if wide { "rungc_wide_at" } else { "rungc_at" };
             let _ = write!(code.text(), "{function}({step})");
             return;
@@ -110,6 +114,9 @@ impl Writer<'_, '_> {
         }
         if signal {
             code.argument(".signal = true");
+        }
+        if period_ms > 0 {
+            code.argument(format_args!(".period_ms = {period_ms}"));
         }
         code.close("}");
     }

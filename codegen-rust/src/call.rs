@@ -15,6 +15,7 @@ impl Generator<'_> {
             ref args,
             drive,
             signal,
+            period_ms,
             slot,
             step,
         } = *call;
@@ -33,6 +34,10 @@ impl Generator<'_> {
         }
         if signal {
             site.extend(quote!(.signal()));
+        }
+        if period_ms != 0 {
+            let period_ms = Literal::u16_unsuffixed(period_ms);
+            site.extend(quote!(.each_ms(#period_ms)));
         }
         let args: Vec<TokenStream> = args.iter().map(|arg| self.argument(arg)).collect();
         quote!(#call(#module::#name, #site, &[#(#args),*], plc, hal);)

@@ -375,6 +375,7 @@ impl<'m> Machine<'m> {
             wide: call.wide,
             drive: call.drive.is_none_or(|drive| self.on(drive)),
             signal: call.signal,
+            period_ms: call.period_ms,
         };
         let mut ops = std::mem::take(&mut self.operands);
         ops.clear();

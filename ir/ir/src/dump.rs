@@ -317,6 +317,7 @@ impl Out<'_> {
             args,
             drive,
             signal,
+            period_ms,
             slot,
             step: _,
         } = call;
@@ -333,6 +334,9 @@ impl Out<'_> {
         }
         if *signal {
             line.push_str(" signal");
+        }
+        if *period_ms != 0 {
+            let _ = write!(line, " each {period_ms} ms");
         }
         line
     }

@@ -62,6 +62,7 @@ impl Lowerer<'_> {
                         args,
                         drive,
                         signal: false,
+                        period_ms: 0,
                         slot,
                         step,
                     }));
@@ -115,6 +116,7 @@ impl Lowerer<'_> {
                 args,
                 drive: Some(drive),
                 signal: false,
+                period_ms: 0,
                 slot,
                 step,
             }));

@@ -49,6 +49,7 @@ mod protocols;
 mod pulse_width;
 mod queues;
 mod resets;
+mod sampling;
 mod shared_timers;
 mod signals;
 mod special;
@@ -141,6 +142,7 @@ fn lower_with(
     bounds::costs(&module, &indexes, &mut findings);
     resets::shorten_tables(&mut module, &resets.entries);
     shared_timers::mark(&mut module);
+    sampling::mark(&mut module);
     watchdog::watch(&mut module, resolved);
     layout::build(
         &mut module,

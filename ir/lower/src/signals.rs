@@ -165,6 +165,7 @@ impl Lowerer<'_> {
                 args,
                 drive: None,
                 signal: true,
+                period_ms: 0,
                 slot: looker.slot,
                 step,
             }));
@@ -221,6 +222,7 @@ impl Lowerer<'_> {
             }],
             drive: None,
             signal: false,
+            period_ms: 0,
             slot: 0,
             step: 0,
         }));

@@ -365,6 +365,7 @@ impl Lowerer<'_> {
             args,
             drive,
             signal: false,
+            period_ms: 0,
             slot: if needs.state { self.module.states } else { 0 },
             step: 0,
         }));

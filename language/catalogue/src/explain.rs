@@ -12,10 +12,11 @@ pub use words::meaning;
 use super::{Classes, Drive, Forms, Inst, Lower, Param, When, all, find};
 use crate::Form;
 use crate::row::{SOURCE_BITS, WORDS};
-use rungc_models::{Model, ModelId};
+use rungc_models::{Model, ModelId, ModelSet};
 use special::{special_of, special_page};
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::ops::RangeInclusive;
 
 /// The page of an instruction, in Markdown: operands, forms, steps, flags, errors, models, an example; or of a special
 /// device (`M8029`). `None` if nothing is called so.
@@ -236,17 +237,34 @@ fn errors_by_model(inst: &Inst) -> BTreeMap<u16, Vec<&'static str>> {
     found
 }
 
-/// Errors that an instruction can cause on a model, by the codes of H1U and H2U: those of its row, and those of
-/// operands that an index register leads out of the device range or that are in a module.
+/// A module that cannot be reached: the code of FX and L01S, since 6750 is also one of auto tuning.
+const UNREACHED: u16 = 6708;
+
+/// Codes of PID that not all models have: FX tunes by itself, FX3 looks at limits and alarms, too; L01S and HM compute
+/// otherwise.
+const OF_SOME_MODELS: [(RangeInclusive<u16>, ModelSet); 5] = [
+    (6733..=6736, ModelSet::ALL.without(ModelSet::L01S)),
+    (6740..=6740, ModelSet::FX.or(ModelSet::INOVANCE)),
+    (6742..=6747, ModelSet::FX.or(ModelSet::INOVANCE)),
+    (6748..=6749, ModelSet::FX3),
+    (6750..=6751, ModelSet::FX),
+];
+
+/// Errors that an instruction can cause on a model, by the codes of H1U and H2U but for [`UNREACHED`]: those of its
+/// row, and those of operands that an index register leads out of the device range or that are in a module.
 fn errors(inst: &Inst, model: &Model) -> Vec<u16> {
     let mut codes = inst.errors.to_vec();
+    codes.retain(|code| {
+        let mut some = OF_SOME_MODELS.iter();
+        some.all(|(codes, models)| !codes.contains(code) || models.has(model.id))
+    });
     for param in inst.params_of(&[], model) {
         let classes = param.classes_on(model);
         if param.indexable && classes.meets(WORDS.or(SOURCE_BITS)) {
             codes.push(6706);
         }
         if classes.meets(Classes::BUFFER) {
-            codes.push(6750);
+            codes.push(UNREACHED);
         }
     }
     codes.sort_unstable();
@@ -277,8 +295,12 @@ fn error_title(code: u16) -> &'static str {
         6706 => "an operand lies outside the device range, or a value is outside what is allowed",
         6707 => "a value is outside what is allowed",
         6730..=6739 => "a PID parameter is wrong; the control stops",
-        6740..=6749 => "a PID parameter is wrong; the control continues",
-        6750 => "the module cannot be reached; 6708 on FX and L01S",
+        6740 => "the sampling time of PID is not longer than a scan; the control continues",
+        6742..=6747 => "a value of PID is beyond 16 bits and held there; the control continues",
+        6748 | 6749 => "limits or alarms of PID are wrong; the control continues",
+        6750 => "auto tuning of PID has no result",
+        6751 => "auto tuning of PID finds the wrong direction, and continues",
+        UNREACHED => "the module cannot be reached; on H1U and H2U 6750",
         6760 => "too many comparisons of high-speed counters",
         6770 | 6771 => "the pulse output is in use or wrong; on FX and L01S 6764: it is in use",
         _ => "see the manual",

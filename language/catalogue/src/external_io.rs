@@ -222,7 +222,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(FROM_FX)
         .variants(&[on(H1U).takes(FROM_H1U), on(H2U).takes(FROM)])
         .flags(&["M8164", "D8164", "M8299", "D8299"])
-        .errors(&[6381, 6706, 6750])
+        .errors(&[6381, 6706, 6708])
         .call(RtFn::From)
         .lower_on(&[
             (L01S, Lower::Call(RtFn::FromHost)),
@@ -237,7 +237,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(TO_FX)
         .variants(&[on(H1U).takes(TO_H1U), on(H2U).takes(TO)])
         .flags(&["M8164", "D8164", "M8299", "D8299"])
-        .errors(&[6381, 6706, 6750])
+        .errors(&[6381, 6706, 6708])
         .call(RtFn::To)
         .lower_on(&[
             (L01S, Lower::Call(RtFn::ToHost)),
@@ -256,7 +256,7 @@ pub(super) const ROWS: &[Inst] = &[
             on(INOVANCE).takes(RD3A_INOVANCE),
             on(BOARDS).takes(RD3A_BOARD),
         ])
-        .errors(&[6706, 6707, 6750])
+        .errors(&[6706, 6707, 6708])
         .call(RtFn::Rd3a)
         .lower_on(&[(L01S, Lower::Call(RtFn::Rd3aModbus)), (BOARDS, Lower::Call(RtFn::Rd3aBoard))])
         .text(
@@ -273,7 +273,7 @@ pub(super) const ROWS: &[Inst] = &[
             on(INOVANCE).takes(WR3A_INOVANCE),
             on(BOARDS).takes(WR3A_BOARD),
         ])
-        .errors(&[6706, 6707, 6750])
+        .errors(&[6706, 6707, 6708])
         .call(RtFn::Wr3a)
         .lower_on(&[(L01S, Lower::Call(RtFn::Wr3aModbus)), (BOARDS, Lower::Call(RtFn::Wr3aBoard))])
         .text(
@@ -288,7 +288,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(5, 5)
         .takes(&[src("S", CONSTANTS.or(DATA)).limits(0, 7), dst("D", RESULTS)])
-        .errors(&[6706, 6750])
+        .errors(&[6706, 6708])
         .call(RtFn::Vrrd)
         .text("D = the position of potentiometer S, 0 to 255."),
     io("VRSC", 86, "Read a potentiometer as a switch")
@@ -298,7 +298,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(5, 5)
         .takes(&[src("S", CONSTANTS.or(DATA)).limits(0, 7), dst("D", RESULTS)])
-        .errors(&[6706, 6750])
+        .errors(&[6706, 6708])
         .call(RtFn::Vrsc)
         .text("D = the position of potentiometer S as a number from 0 to 10."),
     io("RBFM", 278, "Read from a module in parts")
@@ -313,7 +313,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("n2", CONSTANTS.or(DATA)).limits(1, 32767),
         ])
         .flags(&["M8029", "M8328", "M8329"])
-        .errors(&[6706, 6750])
+        .errors(&[6706, 6708])
         .call(RtFn::Rbfm)
         .text("Copies n1 words of the buffer memory of module m1 from address m2 on to D, n2 words in each scan."),
     io("WBFM", 279, "Write to a module in parts")
@@ -328,7 +328,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("n2", CONSTANTS.or(DATA)).limits(1, 32767),
         ])
         .flags(&["M8029", "M8328", "M8329"])
-        .errors(&[6706, 6750])
+        .errors(&[6706, 6708])
         .call(RtFn::Wbfm)
         .text("Copies n1 words from S on to the buffer memory of module m1 from address m2 on, n2 words in each scan."),
 ];

@@ -412,7 +412,9 @@ pub(super) const ROWS: &[Inst] = &[
     serial("PID", 88, "PID control")
         .takes(PID)
         .variants(&[on(INOVANCE).takes(PID_INOVANCE), on(FX3).takes(PID_FX3), on(L01S).takes(PID_L01S)])
-        .errors(&[6706, 6730, 6732, 6733, 6734, 6735, 6736, 6740, 6742, 6748, 6749])
+        .errors(&[
+            6706, 6730, 6732, 6733, 6734, 6735, 6736, 6740, 6742, 6743, 6744, 6745, 6746, 6747, 6748, 6749, 6750, 6751,
+        ])
         .call(RtFn::Pid)
         .lower_on(&[
             (FX3, Lower::Call(RtFn::PidChecked)),

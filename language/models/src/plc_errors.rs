@@ -214,9 +214,9 @@ static OF_PROGRAMS: &[PlcError] = &[
     row(
         6740,
         ALL,
-        "PID: the sampling time is not longer than a scan",
-        "PID continues with the scan time as its sampling time.",
-        "Choose a longer sampling time, or make the scan shorter.",
+        "PID: the sampling time is not longer than a scan, or than the period of its interrupt",
+        "PID continues with that time as its sampling time.",
+        "Choose a longer sampling time, make the scan shorter, or move PID to the routine of a timer interrupt.",
     ),
     row(
         6742,

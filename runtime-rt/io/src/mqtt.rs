@@ -2,11 +2,11 @@
 
 #[cfg(feature = "tls")]
 use crate::tls::explained;
-#[cfg(not(feature = "tls"))]
-use rumqttc::ConnectionError;
-use rumqttc::{Client, Event, LastWill, MqttOptions, Packet, Publish, QoS};
+use rumqttc::{Client, Event, LastWill, MqttOptions, Packet, Publish, QoS, StateError};
+use rumqttc::{ConnectionError, Error};
 use rungc_host::io::{
-    Connection, Driver, ExchangeError, LeftOut, Opener, address, password, take, topics,
+    Connection, Driver, ExchangeError, LONGEST_PACKET, LeftOut, Opener, TOO_LONG, address,
+    password, take, topics,
 };
 use std::collections::BTreeMap;
 use std::sync::mpsc::{self, Receiver, TryRecvError};
@@ -79,6 +79,7 @@ fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
     let id = option("client").cloned().unwrap_or_else(usual);
     let mut options = MqttOptions::new(id, host, port);
     options.set_keep_alive(KEEP_ALIVE);
+    options.set_max_packet_size(LONGEST_PACKET, LONGEST_PACKET);
     let status = option("status").cloned();
     if let Some(topic) = &status {
         options.set_last_will(LastWill::new(topic, OFFLINE, QoS::AtLeastOnce, true));
@@ -109,6 +110,7 @@ fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
                 Ok(Event::Incoming(Packet::ConnAck(_))) => News::Connected,
                 Ok(Event::Incoming(Packet::Publish(publish))) => News::Value(publish),
                 Ok(_) => continue,
+                Err(error) if is_too_long(&error) => News::Lost(TOO_LONG.to_string()),
                 Err(error) => News::Lost(explained(&error, &described, accepted)),
             };
             accepted = true;
@@ -146,6 +148,16 @@ fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
         broker.publish(topic, ONLINE.to_string());
     }
     Ok(Box::new(broker))
+}
+
+/// Returns true if the broker has sent a packet that is too long.
+fn is_too_long(error: &ConnectionError) -> bool {
+    matches!(
+        error,
+        ConnectionError::MqttState(StateError::Deserialization(
+            Error::PayloadSizeLimitExceeded(_)
+        ))
+    )
 }
 
 /// Reason why there is no connection; `accepted`: whether there was one.

@@ -143,6 +143,15 @@ impl<'a> Cx<'a> {
         }
     }
 
+    /// Milliseconds since the instruction was last executed, as [`Cx::elapsed_ms`], but the period of a timer interrupt
+    /// in its routine: h1u-h2u-programming §4.3.9 recommends it for PID that has to be faster than the scan.
+    pub fn sampled_ms(&mut self) -> i32 {
+        match self.site.period_ms {
+            0 => self.elapsed_ms(),
+            period => period.into(),
+        }
+    }
+
     /// The instruction's private memory.
     pub fn state(&mut self) -> &mut State {
         self.plc.state(self.site.slot)

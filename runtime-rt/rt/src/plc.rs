@@ -148,6 +148,9 @@ pub struct Site {
     pub drive: bool,
     /// An input has changed that the instruction looks at, perhaps between two scans: it is driven as it was last ([`crate::Needs::signals`]).
     pub signal: bool,
+    /// Period in milliseconds of the timer interrupt whose routine executes the instruction, if it takes its time from
+    /// that ([`crate::Needs::sampled`]); else 0.
+    pub period_ms: u16,
 }
 
 impl Site {
@@ -159,6 +162,7 @@ impl Site {
             wide: false,
             drive: true,
             signal: false,
+            period_ms: 0,
         }
     }
 
@@ -187,6 +191,13 @@ impl Site {
     #[must_use]
     pub const fn signal(mut self) -> Self {
         self.signal = true;
+        self
+    }
+
+    /// The same in the routine of a timer interrupt with this period.
+    #[must_use]
+    pub const fn each_ms(mut self, period_ms: u16) -> Self {
+        self.period_ms = period_ms;
         self
     }
 }

@@ -40,6 +40,8 @@ pub struct Needs {
     pub any_port: bool,
     /// It works on the CAN card ([`crate::comm::CAN_PORT`]).
     pub can: bool,
+    /// In the routine of a timer interrupt, its time is the period ([`crate::Site::period_ms`]).
+    pub sampled: bool,
     /// Registers give it devices by number, of any class that a scan may write.
     pub anywhere: bool,
 }
@@ -116,6 +118,7 @@ macro_rules! registry {
                         names_port: false,
                         any_port: false,
                         can: false,
+                        sampled: false,
                         anywhere: false,
                     };
                     $($(needs.$need = true;)*)?
@@ -349,11 +352,11 @@ registry! {
     Vrsc = modules::vrsc(s, d) [hal];
     Rbfm = modules::rbfm(m1, m2, d, n1, n2) [state, always, hal];
     Wbfm = modules::wbfm(m1, m2, s, n1, n2) [state, always, hal];
-    Pid = pid::pid(s1, s2, s3, d) [state];
-    PidTuning = pid::pid_tuning(s1, s2, s3, d) [state];
-    PidChecked = pid::pid_checked(s1, s2, s3, d) [state];
+    Pid = pid::pid(s1, s2, s3, d) [state, sampled];
+    PidTuning = pid::pid_tuning(s1, s2, s3, d) [state, sampled];
+    PidChecked = pid::pid_checked(s1, s2, s3, d) [state, sampled];
     PidHm = pid::pid_hm(s1, s2, s3, d) [state];
-    PidThermal = pid_thermal::pid_thermal(s1, s2, s3, d) [state];
+    PidThermal = pid_thermal::pid_thermal(s1, s2, s3, d) [state, sampled];
     Loadr = cassette::loadr(s, n, er);
     Saver = cassette::saver(s, n, d, er) [state, always];
     Initr = cassette::initr(s, n, er);

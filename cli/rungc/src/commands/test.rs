@@ -88,7 +88,7 @@ impl Chosen {
     fn load(&self, args: &TestArgs, cx: Context) -> std::result::Result<Vec<TestFile>, Unread> {
         let mut files = files::load(&self.paths, args.filter.as_deref())?;
         if files.is_empty() {
-            return Err(Failure::Because("no cases to run".to_string()).into());
+            return Err(Failure::Because(self.no_cases(args)).into());
         }
         // All cases judge the mutants, of which a part runs.
         if let Some(shard) = args.shard.filter(|_| !args.mutants) {
@@ -98,6 +98,18 @@ impl Chosen {
             files::wire(&mut files, path, cx)?;
         }
         Ok(files)
+    }
+
+    /// Reason why there is nothing to run.
+    fn no_cases(&self, args: &TestArgs) -> String {
+        match &args.filter {
+            Some(filter) => format!("no cases to run: no `file::name` contains `{filter}`"),
+            None => {
+                let paths = self.paths.iter().map(|path| format!("`{}`", path.display()));
+                let paths = paths.collect::<Vec<_>>().join(", ");
+                format!("no cases to run in {paths}: test files are named `*.plctest.toml`")
+            }
+        }
     }
 
     /// The properties that the settings demand, which are not test cases. `rungc verify` reports mistakes in them.

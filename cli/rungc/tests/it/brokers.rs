@@ -209,6 +209,38 @@ fn the_last_will_says_that_the_plc_is_gone() {
     shows(port, "plant/status", "offline");
 }
 
+/// A message that is no value is reported, and the connection remains, however often the broker delivers it.
+#[test]
+fn long_messages_do_not_end_a_connection() {
+    if !is_there() {
+        return;
+    }
+    let port = free_port();
+    let settings = SETTINGS.replace("PORT", &port.to_string());
+    let settings = settings.replace("user = 'plc'\npassword-file = 'password'\n", "");
+    let folder = folder(&[
+        ("p.il", PROGRAM.as_bytes()),
+        ("rungc.toml", settings.as_bytes()),
+        ("mosquitto.conf", open_to_all(port).as_bytes()),
+    ]);
+    let _broker = broker(folder.path());
+    publish(port, "plant/switch/X001", &"x".repeat(100_000));
+    let said = folder.path().join("said");
+    let mut serve = Command::new(env!("CARGO_BIN_EXE_rungc"));
+    serve
+        .arg("serve")
+        .current_dir(&folder)
+        .stdout(Stdio::null())
+        .stderr(fs::File::create(&said).unwrap());
+    let _run = Ends(serve.spawn().unwrap());
+    let text = || fs::read_to_string(&said).unwrap_or_default();
+    soon("the message is left out", || {
+        text().contains("plant/switch/X001: `xxxx")
+    });
+    works(folder.path(), port, 7);
+    assert_eq!(text().matches("connected to").count(), 1, "{}", text());
+}
+
 /// Brokers by TLS; certificates are openssl's.
 #[cfg(feature = "tls")]
 mod encrypted {

@@ -70,6 +70,9 @@ pub struct Call {
     /// It is not a scan that calls it but an input at which it looks ([`rungc_rt::Site::signal`]), in
     /// [`FunctionKind::Signals`](super::FunctionKind::Signals).
     pub signal: bool,
+    /// Period of the timer interrupt in whose routine it is ([`rungc_rt::Site::period_ms`]); 0 elsewhere, and for
+    /// functions that do not look at it.
+    pub period_ms: u16,
     /// Private memory, for functions that need one; from 1.
     pub slot: u16,
     /// Step number.

@@ -254,7 +254,7 @@ fn code_on(code: u16, model: &Model) -> Option<u16> {
     let like_h = ModelSet::INOVANCE.has(model.id);
     match code {
         6707 => Some(model.value_error),
-        6750 if !like_h => Some(6708),
+        super::UNREACHED if like_h => Some(6750),
         6770 if !like_h => Some(6764),
         6771 if !like_h => None,
         _ => Some(code),

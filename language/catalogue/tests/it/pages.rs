@@ -55,6 +55,32 @@ fn pages_of_a_model_name_its_devices_and_errors() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
+/// 6750 is a module on H1U and H2U, and auto tuning on FX, where a module that cannot be reached is 6708.
+#[test]
+fn errors_have_the_codes_of_the_model() {
+    let listed = |name: &str, plc: &str| -> Vec<u16> {
+        let page = page(name, plc);
+        let errors = page.split("## Errors").nth(1).unwrap_or_default();
+        let lines = errors.lines().filter_map(|line| line.strip_prefix("- "));
+        lines
+            .map(|line| line.split(':').next().unwrap().parse().unwrap())
+            .collect()
+    };
+    let settings = [6730, 6732, 6733, 6734, 6735, 6736];
+    let values = [6740, 6742, 6743, 6744, 6745, 6746, 6747];
+    let pid = |before: &[u16], after: &[u16]| [before, &settings, &values, after].concat();
+    assert_eq!(listed("PID", "h2u"), pid(&[6706], &[]));
+    assert_eq!(listed("PID", "fx2n"), pid(&[6706], &[6750, 6751]));
+    let fx3 = pid(&[6706, 6708], &[6748, 6749, 6750, 6751]);
+    assert_eq!(listed("PID", "fx3u"), fx3);
+    assert_eq!(listed("PID", "l01s"), [6706, 6730, 6732]);
+    assert!(listed("FROM", "h2u").contains(&6750));
+    assert!(listed("FROM", "fx3u").contains(&6708) && !listed("FROM", "fx3u").contains(&6750));
+    let all = rungc_catalogue::explain("PID").unwrap();
+    let line = "\n- 6750: auto tuning of PID has no result (only on fx1s, fx1n, fx2n, ";
+    assert!(all.contains(line), "{all}");
+}
+
 #[test]
 fn an_instruction_that_a_model_lacks_is_said_so() {
     for model in ModelId::ALL.map(Model::get) {

@@ -33,14 +33,16 @@ impl LeftOut {
     }
 }
 
-/// Input in a report: its beginning, without control characters.
+/// Input in a report: its beginning, without characters that a terminal may act on.
 pub(super) fn shown(text: &str) -> String {
     let mut shown = text.chars();
-    let begin: String = shown
-        .by_ref()
-        .take(SHOWN)
-        .flat_map(char::escape_debug)
-        .collect();
+    let mut begin = String::new();
+    for c in shown.by_ref().take(SHOWN) {
+        match c {
+            '"' | '\'' | '\\' => begin.push(c),
+            _ => begin.extend(c.escape_debug()),
+        }
+    }
     let end = if shown.next().is_some() { "…" } else { "" };
     format!("{begin}{end}")
 }

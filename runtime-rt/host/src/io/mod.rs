@@ -61,7 +61,7 @@ pub use settings::{Connection, End, Kind, Loss, Place, Row, SettingError, Table}
 #[cfg(target_os = "linux")]
 pub use sys::SerialPort;
 pub use text::parse;
-pub use topics::{Topic, address, password, take, topics};
+pub use topics::{LONGEST_PACKET, TOO_LONG, Topic, address, password, take, topics};
 
 /// The driver of a connection that needs nothing but the standard library and the system.
 ///

@@ -5,7 +5,7 @@ use super::cycle::{Driver, ExchangeError};
 use super::left_out::LeftOut;
 use super::modbus::connect;
 use super::settings::Connection;
-use super::topics::{address, password, take, topics};
+use super::topics::{LONGEST_PACKET, TOO_LONG, address, password, take, topics};
 use std::collections::BTreeMap;
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::TcpStream;
@@ -20,9 +20,6 @@ const KEEP_ALIVE: Duration = Duration::from_secs(5);
 /// Payloads of the topic that shows whether the PLC is there.
 const ONLINE: &str = "online";
 const OFFLINE: &str = "offline";
-
-/// The longest packet that is taken, in bytes.
-const LONGEST: usize = 1 << 20;
 
 /// Types of packets, with the flags that they have (MQTT 3.1.1 §2.2).
 const CONNECT: u8 = 0x10;
@@ -83,7 +80,7 @@ fn cut(came: &[u8]) -> io::Result<Option<(u8, usize, usize)>> {
     for (n, &byte) in rest.iter().take(4).enumerate() {
         length |= usize::from(byte & 0x7f) << (7 * n);
         if byte & 0x80 == 0 {
-            if length > LONGEST {
+            if length > LONGEST_PACKET {
                 break;
             }
             let (from, to) = (n + 2, n + 2 + length);
@@ -93,12 +90,9 @@ fn cut(came: &[u8]) -> io::Result<Option<(u8, usize, usize)>> {
             break;
         }
     }
-    match rest.len() < 4 && length <= LONGEST {
+    match rest.len() < 4 && length <= LONGEST_PACKET {
         true => Ok(None),
-        false => Err(io::Error::new(
-            ErrorKind::InvalidData,
-            "a packet is too long",
-        )),
+        false => Err(io::Error::new(ErrorKind::InvalidData, TOO_LONG)),
     }
 }
 

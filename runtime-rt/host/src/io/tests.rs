@@ -284,8 +284,18 @@ fn payloads_are_taken_or_left_out_with_a_reason() {
             "2",
             "X001 takes 0, 1, true, false, on or off".to_string(),
         ),
-        ("recipe", "[1, null]", format!("D21 {word}")),
-        ("recipe", "[1, 7, 3]", "the row has 2 values".to_string()),
+        ("recipe", "[8, null]", format!("D21 {word}")),
+        ("recipe", "[8, 9, 3]", "the row has 2 values".to_string()),
+        (
+            "recipe",
+            "{\"D20\": 9, \"D21\": 70000}",
+            format!("D21 {word}"),
+        ),
+        (
+            "recipe",
+            "{\"d20\": 9}",
+            "it names no device of the row, such as D20".to_string(),
+        ),
         (
             "recipe",
             "5",

@@ -8,6 +8,13 @@ use std::fs;
 /// Stands for the name of the device in the topic of a row.
 const DEVICE: &str = "{}";
 
+/// The longest packet that is taken from a broker, in bytes: a longer one ends the connection.
+pub const LONGEST_PACKET: usize = 1 << 20;
+
+/// Reason why a connection ended with a longer packet.
+pub const TOO_LONG: &str =
+    "a message has more than 1048576 bytes: publish shorter ones on the topics that are read";
+
 /// A topic of a row, and what it shows.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Topic {
@@ -51,7 +58,7 @@ impl Topic {
     }
 }
 
-/// Takes the payload of a topic. What does not fit a device is left out; an empty payload, by which brokers say that a
+/// Takes the payload of a topic. One with a value that does not fit is left out; an empty payload, by which brokers say that a
 /// retained one is deleted, changes nothing.
 pub fn take(
     connection: &Connection,
@@ -80,31 +87,32 @@ pub fn take(
     }
 }
 
-/// Takes an object by names of devices, or an array.
+/// Takes an object by names of devices, or an array: all of it, or nothing if a value does not fit.
 ///
 /// # Errors
-/// Reason why a value is left out: the first one's.
+/// Reason why it is left out.
 fn all(row: &Row, values: &mut [i16], payload: &str) -> Result<(), String> {
     let example = row.name(0);
     let items = json::items(payload)
         .ok_or_else(|| format!("several values are written `{{\"{example}\": 1}}` or `[1, 0]`"))?;
-    let mut result = Ok(());
+    let mut taken = values.to_vec();
+    let (mut named, is_empty) = (false, items.is_empty());
     for (n, (name, value)) in (0..).zip(items) {
         let n = match &name {
             Some(name) => (0..row.count).find(|&n| row.name(n) == *name),
             None if n < row.count => Some(n),
-            None => {
-                let why = format!("the row has {} values", row.count);
-                result = result.and(Err(why));
-                break;
-            }
+            None => return Err(format!("the row has {} values", row.count)),
         };
         if let Some(n) = n {
-            let taken = set(row, n, values, Some(value));
-            result = result.and(taken);
+            set(row, n, &mut taken, Some(value))?;
+            named = true;
         }
     }
-    result
+    if !named && !is_empty {
+        return Err(format!("it names no device of the row, such as {example}"));
+    }
+    values.copy_from_slice(&taken);
+    Ok(())
 }
 
 /// A value alone; `on` and `off`, as many switches say.

@@ -181,10 +181,10 @@ fn tune_or_control(cx: &mut Cx, checked: bool) -> Done {
     }
 }
 
-/// Adds the time since the last scan, once in a scan; returns the time that the sample stands for, if one is due. A
-/// sampling time not above the scan time is error 6740, and each scan is a sample then.
+/// Adds the time since the last scan, once in a scan, or the period of the timer interrupt; returns the time that the
+/// sample stands for, if one is due. A sampling time not above this time is error 6740, and each time is a sample then.
 fn sample_due(cx: &mut Cx, area: &mut Area, ts: u32, error: &mut Option<Fault>) -> Option<f32> {
-    let dt = cx.elapsed_ms().unsigned_abs();
+    let dt = cx.sampled_ms().unsigned_abs();
     if dt > 0 && ts <= dt {
         error.get_or_insert(Fault(6740));
         return Some(dt as f32);

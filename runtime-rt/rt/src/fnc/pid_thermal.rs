@@ -84,7 +84,7 @@ pub fn pid_thermal(cx: &mut Cx) -> Done {
     if !(0..=99).contains(&filter) {
         return Err(Fault(6732));
     }
-    let dt = cx.elapsed_ms() as f32;
+    let dt = cx.sampled_ms() as f32;
     let elapsed = load(cx, memory::ELAPSED) + dt;
     if elapsed < f32::from(ts) {
         store(cx, memory::ELAPSED, elapsed);

@@ -236,8 +236,8 @@ impl Encoder<'_> {
         match action {
             Action::Call(call) => {
                 text.push_str(&format!(
-                    "{:?} {} {}",
-                    call.function, call.wide, call.signal
+                    "{:?} {} {} {}",
+                    call.function, call.wide, call.signal, call.period_ms
                 ));
                 if let Some(drive) = call.drive {
                     bits.push(self.on(drive));
