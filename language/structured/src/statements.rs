@@ -80,15 +80,7 @@ impl Compiler<'_> {
             }
             StmtKind::Case(of, arms, otherwise, _) => self.case(of, arms, otherwise.as_ref()),
             StmtKind::For(for_) => self.count(for_),
-            StmtKind::While(when, body, _) => {
-                let arm = Arm {
-                    when: when.clone(),
-                    body: body.clone(),
-                    span: when.span,
-                };
-                self.warn_constant(&[arm], None);
-                self.while_(when, body)
-            }
+            StmtKind::While(when, body, _) => self.while_(when, body),
             StmtKind::Repeat(body, until, _) => self.repeat(body, until),
             StmtKind::Exit => match self.loops.last() {
                 Some(end) => {
@@ -133,6 +125,17 @@ impl Compiler<'_> {
                 self.found
                     .push(warning.label("never run").other(arm.when.span, always));
             }
+        }
+    }
+
+    /// Warns of a loop that is never run.
+    fn warn_never(&mut self, when: &Expr, body: &Body) {
+        let constant = fold::constant(&self.labels, when);
+        if let (Some((Const::Bool(false), _)), Some(first)) = (constant, body.first()) {
+            let warning = codes::ST_UNREACHABLE.at(first.span, "this is never run");
+            let warning = warning.label("never run");
+            self.found
+                .push(warning.other(when.span, "this is never true"));
         }
     }
 
@@ -408,6 +411,7 @@ impl Compiler<'_> {
     }
 
     fn while_(&mut self, when: &Expr, body: &Body) -> Made<()> {
+        self.warn_never(when, body);
         let head = self.span;
         let (again, end) = (self.pointer()?, self.pointer()?);
         self.label(again);

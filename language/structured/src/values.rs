@@ -9,31 +9,7 @@ use crate::labels::value_in;
 use crate::literal::{Const, Literal};
 use crate::texts;
 use crate::types::{Fit, Ty};
-use rungc_syntax::{Device, Operand, OperandKind, codes, phrase};
-
-/// An error of a number that no type has.
-fn not_a_value(text: &str, expr: &Expr) -> Made<Ty> {
-    fail(codes::ST_LITERAL.at(expr.span, phrase!("`{text}` is not a value", text)))
-}
-
-/// The type of NOT of an operand.
-fn inverted(of: &Expr, ty: Ty) -> Made<Ty> {
-    match ty.is_bit() {
-        true => Ok(Ty::Bool),
-        false => {
-            let what = phrase!("NOT takes a BOOL, and this is {ty}", ty);
-            fail(codes::ST_TYPE.at(of.span, what))
-        }
-    }
-}
-
-/// The type of the negative of an operand of this type.
-fn negated(expr: &Expr, ty: Ty) -> Made<Ty> {
-    match ty == Ty::Bool || ty.is_unsigned() {
-        true => fail(codes::ST_TYPE.at(expr.span, phrase!("{ty} has no negative values", ty))),
-        false => Ok(ty),
-    }
-}
+use rungc_syntax::{Device, Operand, OperandKind, Span, codes, phrase};
 
 impl Compiler<'_> {
     /// The type of an expression.
@@ -45,22 +21,23 @@ impl Compiler<'_> {
             return Ok(Ty::Text(text.chars().count() as u16));
         }
         match &expr.kind {
-            ExprKind::Number(text) | ExprKind::Typed(text) => not_a_value(text, expr),
+            ExprKind::Number(text) | ExprKind::Typed(text) => not_a_value(text, expr.span),
             ExprKind::Unread | ExprKind::Initial(_) => Err(Vec::new()),
             ExprKind::Call(of, args) => self.type_of_call(of, args, expr),
-            ExprKind::Not(of) => inverted(of, self.ty(of)?),
-            ExprKind::Neg(of) => negated(expr, self.ty(of)?),
-            ExprKind::Binary(op, left, right) => {
-                let types = both(self.ty(left), self.ty(right))?;
-                self.type_of_binary(*op, (left, right), types)
-            }
+            ExprKind::Not(of) => opposite(self.ty(of)?, of.span),
+            ExprKind::Neg(of) => negative(self.ty(of)?, expr.span),
+            ExprKind::Binary(op, left, right) => self.type_of_binary(*op, left, right),
             _ => Ok(self.place(expr)?.map_or(Ty::Raw16, |place| place.ty)),
         }
     }
 
-    /// The type of two operands that an operator joins, of types `a` and `b`. It is apart from [`ty`](Self::ty), whose
-    /// frames are many on the stack.
-    fn type_of_binary(&self, op: Op, (left, right): (&Expr, &Expr), (a, b): (Ty, Ty)) -> Made<Ty> {
+    fn type_of_binary(&self, op: Op, left: &Expr, right: &Expr) -> Made<Ty> {
+        let types = both(self.ty(left), self.ty(right))?;
+        self.type_of_pair(op, types, (left, right))
+    }
+
+    /// The type of an operation with operands of these types.
+    fn type_of_pair(&self, op: Op, (a, b): (Ty, Ty), (left, right): (&Expr, &Expr)) -> Made<Ty> {
         let span = left.span.to(right.span);
         if op == Op::Power {
             return fail(codes::ST_UNSUPPORTED.at(span, "`**` is not compiled yet"));
@@ -408,6 +385,31 @@ impl Compiler<'_> {
             Some(target) => self.moved(kind, to, Some(target)),
             None => Ok(kind),
         }
+    }
+}
+
+fn not_a_value(text: &str, span: Span) -> Made<Ty> {
+    fail(codes::ST_LITERAL.at(span, phrase!("`{text}` is not a value", text)))
+}
+
+/// The type of the opposite of a condition.
+fn opposite(ty: Ty, span: Span) -> Made<Ty> {
+    match ty {
+        ty if ty.is_bit() => Ok(Ty::Bool),
+        _ => {
+            let what = phrase!("NOT takes a BOOL, and this is {ty}", ty);
+            fail(codes::ST_TYPE.at(span, what))
+        }
+    }
+}
+
+/// The type of a number with the other sign.
+fn negative(ty: Ty, span: Span) -> Made<Ty> {
+    match ty {
+        Ty::Bool | Ty::Word | Ty::Dword | Ty::Text(_) => {
+            fail(codes::ST_TYPE.at(span, phrase!("{ty} has no negative values", ty)))
+        }
+        ty => Ok(ty),
     }
 }
 

@@ -242,7 +242,7 @@ fn mistakes_with_texts_have_a_reason() {
          IF s < t THEN D0 := 1; END_IF;\nD0 := MAX(s, t);\ns := s + 'a';\nD0 := s;\ns := D0;\nD0 := LEN();\n\
          D0 := LEN(5);\ns := LEFT(s, t);\ns := LEFT(s, n := 3);\nY0 := NOT s;\nCASE s OF 1: D0 := 1; END_CASE;\n\
          s := INT_TO_STRING(s);\nD0 := STRING_TO_INT(D1);\nD0 := 'abc';\n\
-         t := '0123456789 0123456789 0123456789 0123456789';\nD0 := LENGTH(s);\nEND_PROGRAM\n";
+         t := '0123456789 0123456789 0123456789 0123456789';\nD0 := LENGTH(s);\ns := -s;\nEND_PROGRAM\n";
     let found = compiled(text, ModelId::Fx3u).1;
     let other = "PROGRAM P\nVAR s : STRING(5); END_VAR\ns := 'abc';\nIF s = '' THEN D0 := LEN(s); END_IF;\n\
          s := LEFT(INT_TO_STRING(D0), 5);\nEND_PROGRAM\n";
