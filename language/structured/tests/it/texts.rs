@@ -238,7 +238,7 @@ fn mistakes_with_texts_have_a_reason() {
     let text = "PROGRAM P\nVAR CONSTANT Long : STRING(3) := 'abcd'; END_VAR\n\
          VAR\n    s : STRING(5);\n    t : STRING(12);\n    none : STRING(0);\n    most : STRING(256);\n    \
          bits AT M0 : STRING(4);\n    group AT K4M0 : STRING(4);\n    begun : STRING(4) := 'abc';\n    wide : WSTRING(4);\nEND_VAR\n\
-         s := t;\ns := CONCAT(s, 'x');\ns := 'abcdef';\ns := 'na\u{ef}ve$20';\ns := '\u{4e2d}';\ns := '$';\n\
+         s := t;\ns := CONCAT(s, 'x');\ns := 'abcdef';\ns := 'ros\u{e9}$20';\ns := '\u{4e2d}';\ns := '$';\n\
          IF s < t THEN D0 := 1; END_IF;\nD0 := MAX(s, t);\ns := s + 'a';\nD0 := s;\ns := D0;\nD0 := LEN();\n\
          D0 := LEN(5);\ns := LEFT(s, t);\ns := LEFT(s, n := 3);\nY0 := NOT s;\nCASE s OF 1: D0 := 1; END_CASE;\n\
          s := INT_TO_STRING(s);\nD0 := STRING_TO_INT(D1);\nD0 := 'abc';\n\
