@@ -71,7 +71,12 @@ fn callers(module: &Module) -> Vec<Caller> {
         .map(|function| match function.kind {
             FunctionKind::Interrupt(pointer) => period(module, pointer),
             FunctionKind::Subroutine(_) => Caller::Unknown,
-            _ => Caller::Other,
+            FunctionKind::Main
+            | FunctionKind::Begin
+            | FunctionKind::End
+            | FunctionKind::TakeInterrupts
+            | FunctionKind::InputEdge { .. }
+            | FunctionKind::Signals => Caller::Other,
         })
         .collect();
     let mut callers = own.clone();

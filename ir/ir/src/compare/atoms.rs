@@ -555,6 +555,7 @@ impl<'a> Reader<'a> {
         let at_rest = Needs {
             state: needs.state,
             always: needs.always,
+            sampled: needs.sampled,
             ..Needs::default()
         };
         self.runtime(step, needs != at_rest, reads, writes);
