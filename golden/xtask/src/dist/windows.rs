@@ -61,7 +61,7 @@ mod tests {
             let mut file = archive.by_index(n).unwrap();
             let mut text = String::new();
             file.read_to_string(&mut text).unwrap();
-            found.push((file.name().unwrap().into_owned(), text));
+            found.push((file.name().to_owned(), text));
         }
         let expected = [("a", "first"), ("b", "second")];
         let expected = expected.map(|(name, text)| (name.to_owned(), text.to_owned()));

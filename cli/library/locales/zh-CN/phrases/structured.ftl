@@ -562,6 +562,9 @@ t-this-index-register-does-not-keep-its-value-bacc2cec = 此变址寄存器不�
 # this is never run
 t-this-is-never-run-2ba6752c = 此语句从不执行
 
+# this is never true
+t-this-is-never-true-8e6a6af7 = 此条件永不成立
+
 # this is not a constant
 t-this-is-not-a-constant-beb9deb3 = 这不是常数
 
