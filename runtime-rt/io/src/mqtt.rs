@@ -66,8 +66,8 @@ pub fn opener(connection: &Connection) -> Result<Opener, String> {
     }
 }
 
-/// Connects to the broker of a connection, and subscribes to the topics that are read.
-fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
+/// Options of the client for a connection.
+fn options(connection: &Connection) -> Result<MqttOptions, String> {
     let port = if connection.is_encrypted() {
         TLS_PORT
     } else {
@@ -80,8 +80,7 @@ fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
     let mut options = MqttOptions::new(id, host, port);
     options.set_keep_alive(KEEP_ALIVE);
     options.set_max_packet_size(LONGEST_PACKET, LONGEST_PACKET);
-    let status = option("status").cloned();
-    if let Some(topic) = &status {
+    if let Some(topic) = option("status") {
         options.set_last_will(LastWill::new(topic, OFFLINE, QoS::AtLeastOnce, true));
     }
     if let Some((user, password)) = password(connection)? {
@@ -91,6 +90,12 @@ fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
     if let Some(transport) = crate::tls::transport(connection)? {
         options.set_transport(transport);
     }
+    Ok(options)
+}
+
+/// Connects to the broker of a connection, and subscribes to the topics that are read.
+fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
+    let options = options(connection)?;
     let subscribed = connection
         .directed(true)
         .flat_map(topics)
@@ -111,7 +116,7 @@ fn open(connection: &Connection) -> Result<Box<dyn Driver>, String> {
         client,
         news,
         thread: Some(thread.map_err(|error| error.to_string())?),
-        status,
+        status: connection.options.get("status").cloned(),
         published: BTreeMap::new(),
         left_out: LeftOut::default(),
     };
