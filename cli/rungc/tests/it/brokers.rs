@@ -238,7 +238,12 @@ fn long_messages_do_not_end_a_connection() {
         text().contains("plant/switch/X001: `xxxx")
     });
     works(folder.path(), port, 7);
-    assert_eq!(text().matches("connected to").count(), 1, "{}", text());
+    assert_eq!(
+        text().matches("io broker: connected").count(),
+        1,
+        "{}",
+        text()
+    );
 }
 
 /// Brokers by TLS; certificates are openssl's.
