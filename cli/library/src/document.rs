@@ -118,7 +118,9 @@ impl Document {
         let nameless = nameless.map(|one| one.terminal.clone()).collect();
         let named = |one: &Terminal| is_used(one) || !one.comment.is_empty();
         let special = [DeviceClass::M, DeviceClass::D].map(|class| (class, SPECIAL, u32::MAX));
-        let found = project.check().diagnostics.into_iter();
+        let checked = project.check();
+        let program = checked.compile().ok();
+        let found = checked.diagnostics.into_iter();
         Document {
             title: title(project, resolved),
             plc: resolved.model.title,
@@ -126,7 +128,7 @@ impl Document {
             networks: ladder.networks.len(),
             nameless,
             terminals: all.into_iter().filter(named).collect(),
-            outputs: outputs(project, resolved, ladder),
+            outputs: outputs(program.as_ref(), resolved, ladder),
             timers: timers(resolved, ladder),
             specials: Table::new(resolved, ladder, &special).devices,
             instructions: instructions(resolved, ladder),
@@ -159,7 +161,7 @@ fn comment(resolved: &Resolved, device: Device) -> String {
     written.map_or_else(String::new, |text| one_line(text).into())
 }
 
-fn outputs(project: &Project, resolved: &Resolved, ladder: &Ladder) -> Vec<Output> {
+fn outputs(program: Option<&Program>, resolved: &Resolved, ladder: &Ladder) -> Vec<Output> {
     let uses = CrossReference::new(resolved).uses;
     let mut written: BTreeMap<Device, BTreeSet<usize>> = BTreeMap::new();
     for one in uses.iter().filter(|one| one.first.class == DeviceClass::Y) {
@@ -172,7 +174,6 @@ fn outputs(project: &Project, resolved: &Resolved, ladder: &Ladder) -> Vec<Outpu
             written.entry(device).or_default().insert(network);
         }
     }
-    let program = project.check().compile().ok();
     let output = |(device, networks): (Device, BTreeSet<usize>)| Output {
         name: device.to_string(),
         comment: comment(resolved, device),

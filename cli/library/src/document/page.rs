@@ -3,6 +3,7 @@
 use super::{Document, Output};
 use crate::language::{Argument, Language, message};
 use crate::lists::Terminal;
+use crate::xref::Entry;
 use rungc_analysis::resolve::Resolved;
 use rungc_ladder::Ladder;
 use rungc_ladder::html::{Escaped, STYLE, write_section};
@@ -262,7 +263,12 @@ impl<'a> Page<'a> {
     }
 
     fn specials(&self, out: &mut String) -> fmt::Result {
-        let rows = self.document.specials.iter().map(|entry| {
+        self.entries(out, "meaning", &self.document.specials)
+    }
+
+    /// Devices with where they are used; `text` is what stands beside their names.
+    fn entries(&self, out: &mut String, text: &str, entries: &[Entry]) -> fmt::Result {
+        let rows = entries.iter().map(|entry| {
             let networks: Vec<usize> = entry.uses.iter().map(|line| line.network).collect();
             vec![
                 escaped(&entry.area.to_string()),
@@ -270,7 +276,7 @@ impl<'a> Page<'a> {
                 links(&networks),
             ]
         });
-        self.table(out, &["device", "meaning", "in-networks"], rows)
+        self.table(out, &["device", text, "in-networks"], rows)
     }
 
     fn instructions(&self, out: &mut String) -> fmt::Result {
@@ -314,15 +320,7 @@ impl<'a> Page<'a> {
     }
 
     fn devices(&self, out: &mut String) -> fmt::Result {
-        let rows = self.document.devices.iter().map(|entry| {
-            let networks: Vec<usize> = entry.uses.iter().map(|line| line.network).collect();
-            vec![
-                escaped(&entry.area.to_string()),
-                escaped(&entry.comment),
-                links(&networks),
-            ]
-        });
-        self.table(out, &["device", "comment", "in-networks"], rows)
+        self.entries(out, "comment", &self.document.devices)
     }
 
     fn write_ladder(&self, out: &mut String) -> fmt::Result {
