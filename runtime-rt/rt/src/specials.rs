@@ -29,11 +29,13 @@ impl RtFn {
             self,
             RtFn::Pid | RtFn::PidTuning | RtFn::PidChecked | RtFn::PidHm
         );
+        let needs = self.needs();
         let at_most = Needs {
             state: keeps_scan,
+            sampled: needs.sampled,
             ..Needs::default()
         };
-        if self.needs() != at_most || others {
+        if needs != at_most || others {
             return None;
         }
         Some(Specials {
