@@ -159,6 +159,12 @@ pub enum Command {
     Stats(StatsArgs),
     /// Format instruction lists, preserving comments.
     Fmt(FmtArgs),
+    /// Put another device in the place of one, or give devices labels.
+    ///
+    /// In an instruction list, the device is replaced in all operands and in its comment, or, with the reason, not at
+    /// all. A name that is not a device becomes its label in rungc.toml, for programs of any format. Exit codes: 0:
+    /// renamed; 1: a program with errors; 2: incorrect usage, or a name that the device cannot have.
+    Rename(RenameArgs),
     /// Compare two programs network by network, or by behaviour.
     ///
     /// Exit codes: 0: no difference; 1: a difference; 2: incorrect usage, or a program that cannot be read whole.
@@ -521,6 +527,48 @@ pub struct FmtArgs {
     /// Change nothing: list the lines that are not formatted, and fail (exit code 1) if there are any.
     #[arg(long)]
     pub check: bool,
+}
+
+/// Arguments of `rename`.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  rungc rename press.il M0 M100            M100 in place of M0, in all instructions and in its comment
+  rungc rename press.il M0 M100 --dry-run  the lines that would change
+  rungc rename press.gxw M0 Press.Ready    a label in rungc.toml: a name for reports, tests and emitted code
+  rungc rename press.gxw --comments        labels for all devices with a comment")]
+pub struct RenameArgs {
+    /// The program.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Device, or its comment.
+    #[arg(
+        value_name = "DEVICE",
+        required_unless_present = "comments",
+        requires = "name"
+    )]
+    pub device: Option<String>,
+    /// New device, or a label.
+    #[arg(value_name = "NAME")]
+    pub name: Option<String>,
+    /// Give each device with a comment a label that is its comment.
+    #[arg(long, conflicts_with_all = ["device", "name"])]
+    pub comments: bool,
+    /// Change nothing: list the lines that would change.
+    #[arg(long)]
+    pub dry_run: bool,
+    #[command(flatten)]
+    pub reading: Reading,
+}
+
+impl RenameArgs {
+    /// The program.
+    pub fn input(&self) -> Input {
+        Input {
+            file: Some(self.file.clone()),
+            reading: self.reading.clone(),
+        }
+    }
 }
 
 /// Arguments of `learn`.

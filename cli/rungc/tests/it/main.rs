@@ -58,6 +58,7 @@ mod project;
 mod projects;
 #[cfg(unix)]
 mod read;
+mod rename;
 mod reports;
 mod results;
 mod retain;
