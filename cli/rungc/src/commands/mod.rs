@@ -6,6 +6,7 @@ pub mod build;
 pub mod check;
 pub mod convert;
 mod defaults;
+pub mod dap;
 pub mod demo;
 pub mod diff;
 pub mod doc;
