@@ -1,1 +1,5 @@
-//! The tests.
+//! The adapter under a client of its own, over pipes.
+
+mod client;
+mod hostile;
+mod sessions;
