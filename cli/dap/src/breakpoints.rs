@@ -85,7 +85,9 @@ pub fn holds(condition: &Condition, machine: &Machine) -> bool {
 pub fn momentary(text: &str, program: &Program) -> Result<Condition, String> {
     let condition = program.condition(text).map_err(|error| error.to_string())?;
     if condition.has_memory() {
-        return Err("a condition here is about one moment: it cannot look at earlier scans".to_owned());
+        return Err(
+            "a condition here is about one moment: it cannot look at earlier scans".to_owned(),
+        );
     }
     Ok(condition)
 }
@@ -187,13 +189,18 @@ impl Breakpoints {
     ///
     /// # Errors
     /// Too many.
-    pub fn set_at_lines(&mut self, source: Source, all: Vec<SourceBreakpoint>) -> Result<(), String> {
+    pub fn set_at_lines(
+        &mut self,
+        source: Source,
+        all: Vec<SourceBreakpoint>,
+    ) -> Result<(), String> {
         let others = self.at_lines.iter().filter(|(other, _)| **other != source);
         let others = others.map(|(_, points)| points.len()).sum();
         self.check_count(others, all.len())?;
         let first = self.last;
         self.last += all.len() as i64;
-        self.at_lines.insert(source, (first + 1..).zip(all).collect());
+        self.at_lines
+            .insert(source, (first + 1..).zip(all).collect());
         Ok(())
     }
 
@@ -273,7 +280,10 @@ fn point(
     places: &Places,
 ) -> Result<Point, String> {
     let (condition, hits) = (wanted.condition.as_deref(), wanted.hit_condition.as_deref());
-    let log = wanted.log_message.as_deref().filter(|text| !text.is_empty());
+    let log = wanted
+        .log_message
+        .as_deref()
+        .filter(|text| !text.is_empty());
     Ok(Point {
         instr: places.stop(source, wanted.line)?,
         stop: When::new(id, condition, hits, program)?,
@@ -287,12 +297,21 @@ fn data_point(
     plc: &Plc,
     program: &Program,
 ) -> Result<DataPoint, String> {
-    if wanted.access_type.as_deref().is_some_and(|kind| kind != "write") {
-        return Err("a breakpoint on a device stops when its value changes, not when it is read".to_owned());
+    if wanted
+        .access_type
+        .as_deref()
+        .is_some_and(|kind| kind != "write")
+    {
+        return Err(
+            "a breakpoint on a device stops when its value changes, not when it is read".to_owned(),
+        );
     }
     let (condition, hits) = (wanted.condition.as_deref(), wanted.hit_condition.as_deref());
-    let target = plc.target(&wanted.data_id).map_err(|error| error.to_string())?;
-    plc.get(&wanted.data_id).map_err(|error| error.to_string())?;
+    let target = plc
+        .target(&wanted.data_id)
+        .map_err(|error| error.to_string())?;
+    plc.get(&wanted.data_id)
+        .map_err(|error| error.to_string())?;
     Ok(DataPoint {
         target,
         stop: When::new(id, condition, hits, program)?,
@@ -309,7 +328,15 @@ mod tests {
         assert_eq!(Hits::parse(">5"), Ok(Hits::From(6)));
         assert_eq!(Hits::parse("== 5"), Ok(Hits::Exactly(5)));
         assert_eq!(Hits::parse("% 5"), Ok(Hits::Each(5)));
-        for wrong in ["0", "% 0", "five", "-1", "5 times", "99999999999999999999", "<5"] {
+        for wrong in [
+            "0",
+            "% 0",
+            "five",
+            "-1",
+            "5 times",
+            "99999999999999999999",
+            "<5",
+        ] {
             assert!(Hits::parse(wrong).is_err(), "{wrong}");
         }
     }

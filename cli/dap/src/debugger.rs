@@ -102,22 +102,27 @@ impl<'a, 'p, W: Write> Debugger<'a, 'p, W> {
                 let states = resolved.at_lines.into_values().flatten();
                 for mut state in states.chain(resolved.on_devices) {
                     self.shift_line(&mut state);
-                    self.client
-                        .event("breakpoint", json!({ "reason": "changed", "breakpoint": state }))?;
+                    self.client.event(
+                        "breakpoint",
+                        json!({ "reason": "changed", "breakpoint": state }),
+                    )?;
                 }
                 self.begin()?;
             }
         }
         loop {
             let incoming = match self.state {
-                State::Running(_) => match self.client.receive_within(self.wait()) {
-                    Ok(incoming) => Some(incoming),
-                    Err(RecvTimeoutError::Disconnected) => None,
-                    Err(RecvTimeoutError::Timeout) => {
-                        self.advance()?;
-                        continue;
+                State::Running(_) => {
+                    let wait = self.wait();
+                    match self.client.receive_within(wait) {
+                        Ok(incoming) => Some(incoming),
+                        Err(RecvTimeoutError::Disconnected) => None,
+                        Err(RecvTimeoutError::Timeout) => {
+                            self.advance()?;
+                            continue;
+                        }
                     }
-                },
+                }
                 _ => self.client.receive(),
             };
             let next = match incoming {
@@ -232,7 +237,9 @@ impl<'a, 'p, W: Write> Debugger<'a, 'p, W> {
                 self.stopped("entry", json!({ "description": text, "text": text }))
             }
             None | Some(Why::Place) => self.stopped("step", json!({})),
-            Some(Why::Points(ids)) => self.stopped("breakpoint", json!({ "hitBreakpointIds": ids })),
+            Some(Why::Points(ids)) => {
+                self.stopped("breakpoint", json!({ "hitBreakpointIds": ids }))
+            }
             Some(Why::Data(ids, text)) => self.stopped(
                 "data breakpoint",
                 json!({ "hitBreakpointIds": ids, "description": text, "text": text }),
@@ -279,7 +286,8 @@ impl<'a, 'p, W: Write> Debugger<'a, 'p, W> {
                     self.client.respond(request, Err(why))?;
                 }
             },
-            "continue" | "next" | "stepIn" | "stepOut" | "stepBack" | "reverseContinue" | "pause" => {
+            "continue" | "next" | "stepIn" | "stepOut" | "stepBack" | "reverseContinue"
+            | "pause" => {
                 self.control(request)?;
             }
             _ => {
@@ -292,7 +300,11 @@ impl<'a, 'p, W: Write> Debugger<'a, 'p, W> {
 
     /// Reads the program again, and starts it.
     fn restart(&mut self, request: &Request) -> io::Result<Option<Next>> {
-        let again = match request.arguments.get("arguments").and_then(Value::as_object) {
+        let again = match request
+            .arguments
+            .get("arguments")
+            .and_then(Value::as_object)
+        {
             Some(arguments) => Launch::read(arguments),
             None => Ok(self.launch.clone()),
         };
@@ -321,7 +333,9 @@ impl<'a, 'p, W: Write> Debugger<'a, 'p, W> {
         let checked = checked.and_then(|()| match (self.state, command) {
             (State::Running(_), "pause") | (State::Stopped, _) => Ok(()),
             (State::Configuring, _) => Err(format!("`{command}`: send `configurationDone` first")),
-            _ => Err(format!("`{command}`: the program is running; pause it first")),
+            _ => Err(format!(
+                "`{command}`: the program is running; pause it first"
+            )),
         });
         if let Err(why) = checked {
             return self.client.respond(request, Err(why));
@@ -372,14 +386,22 @@ impl<'a, 'p, W: Write> Debugger<'a, 'p, W> {
             "stackTrace" => self.stack_trace(&request.arguments()?),
             "scopes" => Ok(json!({ "scopes": self.scopes.list() })),
             "variables" => {
-                let Variables { variables_reference, start, count } = request.arguments()?;
+                let Variables {
+                    variables_reference,
+                    start,
+                    count,
+                } = request.arguments()?;
                 let range = (start.unwrap_or(0), count.unwrap_or(0));
                 let plc = self.run.plc_mut();
                 let variables = self.scopes.variables(plc, variables_reference, range)?;
                 Ok(json!({ "variables": variables }))
             }
             "setVariable" => {
-                let SetVariable { variables_reference, name, value } = request.arguments()?;
+                let SetVariable {
+                    variables_reference,
+                    name,
+                    value,
+                } = request.arguments()?;
                 self.scopes.check(variables_reference)?;
                 variables::set(&mut self.run, &name, &value)
             }
@@ -438,7 +460,11 @@ impl<'a, 'p, W: Write> Debugger<'a, 'p, W> {
             })
         };
         let state = if self.run.is_inside() { "in" } else { "before" };
-        let scan = format!("{state} scan {} · {} ms", self.run.scans() + 1, self.run.now_ms());
+        let scan = format!(
+            "{state} scan {} · {} ms",
+            self.run.scans() + 1,
+            self.run.now_ms()
+        );
         let frames = [
             frame(1, places.title(instr), "normal"),
             frame(2, scan, "label"),
@@ -450,13 +476,19 @@ impl<'a, 'p, W: Write> Debugger<'a, 'p, W> {
 
     fn evaluate(&mut self, arguments: &Evaluate) -> Result<Value, String> {
         let expression = &arguments.expression;
-        let Answer { text, kind, has_changed } = match arguments.context.as_deref() {
+        let Answer {
+            text,
+            kind,
+            has_changed,
+        } = match arguments.context.as_deref() {
             Some("repl") => evaluate::command(&mut self.run, expression)?,
             _ => evaluate::look(&mut self.run, expression)?,
         };
         if has_changed && self.editor.takes_invalidated {
             // Output that cannot be written is found with the answer.
-            let _ = self.client.event("invalidated", json!({ "areas": ["variables"] }));
+            let _ = self
+                .client
+                .event("invalidated", json!({ "areas": ["variables"] }));
         }
         let mut body = json!({ "result": text, "variablesReference": 0 });
         if let Some(kind) = kind {
@@ -477,7 +509,9 @@ impl<'a, 'p, W: Write> Debugger<'a, 'p, W> {
         for point in &mut wanted {
             point.line = self.read_line(point.line);
         }
-        self.editor.breakpoints.set_at_lines(source.clone(), wanted)?;
+        self.editor
+            .breakpoints
+            .set_at_lines(source.clone(), wanted)?;
         let mut states = self.apply().at_lines.remove(&source).unwrap_or_default();
         for state in &mut states {
             self.shift_line(state);
@@ -487,9 +521,16 @@ impl<'a, 'p, W: Write> Debugger<'a, 'p, W> {
 
     fn breakpoint_locations(&self, arguments: &BreakpointLocations) -> Result<Value, String> {
         let first = self.read_line(arguments.line);
-        let last = arguments.end_line.map_or(first, |line| self.read_line(line));
-        let lines = self.run.places.lines(&source(&arguments.source)?, first, last)?;
-        let lines = lines.into_iter().map(|line| json!({ "line": self.shown_line(line) }));
+        let last = arguments
+            .end_line
+            .map_or(first, |line| self.read_line(line));
+        let lines = self
+            .run
+            .places
+            .lines(&source(&arguments.source)?, first, last)?;
+        let lines = lines
+            .into_iter()
+            .map(|line| json!({ "line": self.shown_line(line) }));
         Ok(json!({ "breakpoints": lines.collect::<Vec<_>>() }))
     }
 
@@ -508,9 +549,13 @@ impl<'a, 'p, W: Write> Debugger<'a, 'p, W> {
     }
 
     fn exception_info(&self) -> Result<Value, String> {
-        let (code, instr) = self.error.ok_or("the program has not stopped at an error")?;
+        let (code, instr) = self
+            .error
+            .ok_or("the program has not stopped at an error")?;
         let title = plc_errors::title(code, self.run.program().module().model.id);
-        let place = instr.map(|instr| self.run.places.title(instr)).unwrap_or_default();
+        let place = instr
+            .map(|instr| self.run.places.title(instr))
+            .unwrap_or_default();
         Ok(json!({
             "exceptionId": code.to_string(),
             "description": format!("{title}: {place} (`rungc explain {code}` has more)"),

@@ -86,7 +86,10 @@ pub fn command(run: &mut Run, line: &str) -> Result<Answer, String> {
         }
         ("force", rest) if !rest.is_empty() => return force(run, rest).map(changed),
         ("why", name) if !name.is_empty() => {
-            let why = run.before_scan().why(name).map_err(|error| error.to_string())?;
+            let why = run
+                .before_scan()
+                .why(name)
+                .map_err(|error| error.to_string())?;
             return Ok(Answer::text(why.text().trim_end()));
         }
         ("how", name) if !name.is_empty() => {
@@ -96,7 +99,9 @@ pub fn command(run: &mut Run, line: &str) -> Result<Answer, String> {
             return Ok(Answer::text(why.text().trim_end()));
         }
         _ => {
-            let assignment = line.split_once('=').filter(|(name, _)| run.plc().get(name.trim()).is_ok());
+            let assignment = line
+                .split_once('=')
+                .filter(|(name, _)| run.plc().get(name.trim()).is_ok());
             let Some((name, text)) = assignment.filter(|(_, text)| !text.starts_with('=')) else {
                 return look(run, line);
             };
@@ -110,7 +115,9 @@ pub fn command(run: &mut Run, line: &str) -> Result<Answer, String> {
 
 /// Forces `X000 on` or `X000 = on`.
 fn force(run: &mut Run, text: &str) -> Result<String, String> {
-    let split = text.rsplit_once('=').or_else(|| text.rsplit_once(char::is_whitespace));
+    let split = text
+        .rsplit_once('=')
+        .or_else(|| text.rsplit_once(char::is_whitespace));
     let (name, text) = split.ok_or("write a device and its value: `force X000 on`")?;
     let target = run.force(name.trim(), value(text)?)?;
     Ok(format!("{target} is forced{}", from_when(run)))

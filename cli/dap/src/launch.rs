@@ -73,7 +73,9 @@ impl Launch {
             }
         }
         if launch.program.as_os_str().is_empty() {
-            return Err("`program` is missing: the file of the program, or a folder with one".to_owned());
+            return Err(
+                "`program` is missing: the file of the program, or a folder with one".to_owned(),
+            );
         }
         Ok(launch)
     }
@@ -94,7 +96,9 @@ impl Launch {
 }
 
 fn text<'v>(name: &str, value: &'v Json) -> Result<&'v str, String> {
-    value.as_str().ok_or_else(|| format!("`{name}` is a text, not {value}"))
+    value
+        .as_str()
+        .ok_or_else(|| format!("`{name}` is a text, not {value}"))
 }
 
 fn flag(name: &str, value: &Json) -> Result<bool, String> {
@@ -105,19 +109,27 @@ fn flag(name: &str, value: &Json) -> Result<bool, String> {
 
 fn scan(value: &Json) -> Result<u64, String> {
     let ms = value.as_u64().filter(|ms| (1..=MAX_SCAN_MS).contains(ms));
-    ms.ok_or_else(|| format!("`scan` is the duration of a scan, 1 to {MAX_SCAN_MS} ms, not {value}"))
+    ms.ok_or_else(|| {
+        format!("`scan` is the duration of a scan, 1 to {MAX_SCAN_MS} ms, not {value}")
+    })
 }
 
 fn inputs(value: &Json) -> Result<Vec<(String, Value)>, String> {
     let wrong = || {
-        format!("`inputs` is an object with values by devices, such as (\"X000\": true), not {value}")
+        format!(
+            "`inputs` is an object with values by devices, such as (\"X000\": true), not {value}"
+        )
     };
     let object = value.as_object().ok_or_else(wrong)?;
     let inputs = object.iter().map(|(name, value)| {
         let value = match value {
             Json::Bool(on) => Value::Bit(*on),
             Json::Number(number) => Value::Float(number.as_f64().ok_or_else(wrong)?),
-            _ => return Err(format!("`inputs`: the value of `{name}` is a number or a truth value, not {value}")),
+            _ => {
+                return Err(format!(
+                    "`inputs`: the value of `{name}` is a number or a truth value, not {value}"
+                ));
+            }
         };
         Ok((name.clone(), value))
     });

@@ -165,7 +165,14 @@ impl Observer for Watch {
         if scan.changes.is_empty() || scan.instr(stmt).is_none() {
             return;
         }
-        let Scan { changes, places, hal, values, stops, .. } = &mut *scan;
+        let Scan {
+            changes,
+            places,
+            hal,
+            values,
+            stops,
+            ..
+        } = &mut *scan;
         let mut has_changed = false;
         for (_, target, value) in changes.iter().filter(|change| change.0 == *places) {
             // It exists: that was looked at when the change was recorded.
@@ -194,7 +201,9 @@ fn look(data: &[DataPoint], machine: &Machine, hal: &VirtualHal) -> Vec<Option<R
         hal,
         plant: None,
     };
-    data.iter().map(|point| Reading::of(seen, point.target)).collect()
+    data.iter()
+        .map(|point| Reading::of(seen, point.target))
+        .collect()
 }
 
 /// Number of operation errors since power-on.
@@ -294,8 +303,15 @@ impl Scan {
         for (i, point) in self.stops.data.iter_mut().enumerate() {
             let (was, is) = (before.get(i).cloned().flatten(), self.values[i].clone());
             if was != is && point.stop.is_met(machine, counts) {
-                let show = |value: Option<Reading>| value.map_or_else(String::new, |value| value.to_string());
-                text = format!("{} has changed from {} to {}", point.target, show(was), show(is));
+                let show = |value: Option<Reading>| {
+                    value.map_or_else(String::new, |value| value.to_string())
+                };
+                text = format!(
+                    "{} has changed from {} to {}",
+                    point.target,
+                    show(was),
+                    show(is)
+                );
                 ids.push(point.stop.id);
             }
         }

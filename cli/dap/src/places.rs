@@ -116,7 +116,12 @@ impl Places {
     /// An instruction with its place, as the name of a frame.
     pub fn title(&self, instr: usize) -> String {
         match self.instrs.get(instr) {
-            Some(Place { text, step, network, .. }) => {
+            Some(Place {
+                text,
+                step,
+                network,
+                ..
+            }) => {
                 format!("{text} · network {network} · step {step}")
             }
             None => "the program has no instructions".to_owned(),
@@ -152,8 +157,12 @@ impl Places {
     pub fn lines(&self, source: &Source, first: i64, last: i64) -> Result<BTreeSet<u32>, String> {
         let file = self.file(source)?;
         let stops = self.stops.iter().map(|&instr| &self.instrs[instr]);
-        let stops = stops.filter(|place| place.file == file).map(|place| place.line);
-        Ok(stops.filter(|&line| (first..=last).contains(&line.into())).collect())
+        let stops = stops
+            .filter(|place| place.file == file)
+            .map(|place| place.line);
+        Ok(stops
+            .filter(|&line| (first..=last).contains(&line.into()))
+            .collect())
     }
 
     fn file(&self, source: &Source) -> Result<usize, String> {

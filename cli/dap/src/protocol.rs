@@ -238,7 +238,10 @@ mod tests {
             ("", "not JSON"),
             ("[]", "not a request"),
             (r#"{"type":"event"}"#, "not a request"),
-            (r#"{"type":"request","seq":1}"#, "no valid `seq` or `command`"),
+            (
+                r#"{"type":"request","seq":1}"#,
+                "no valid `seq` or `command`",
+            ),
             (
                 r#"{"type":"request","seq":-1,"command":"a"}"#,
                 "no valid `seq` or `command`",

@@ -204,7 +204,7 @@ impl<'p> Run<'p> {
             }
             self.go_to(end);
         }
-        // A stop at the end of the scan before is no other place than this one.
+        // A stop at the end of the scan before is at the same place as the run.
         let mut until = end;
         let mut is_end_other = self.inside.is_some();
         self.inside = None;
@@ -410,7 +410,12 @@ impl<'p> Run<'p> {
     /// One that is not forced.
     pub fn release(&mut self, name: &str) -> Result<Target, String> {
         let target = self.plc.target(name).map_err(|error| error.to_string())?;
-        let is_forced = self.plc.session().forced().iter().any(|(forced, _)| forced == target);
+        let is_forced = self
+            .plc
+            .session()
+            .forced()
+            .iter()
+            .any(|(forced, _)| forced == target);
         if !is_forced {
             return Err(format!("{target} is not forced"));
         }

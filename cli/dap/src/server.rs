@@ -67,7 +67,9 @@ pub fn serve(input: impl Read + Send + 'static, output: impl Write) -> io::Resul
 /// The error of a request before `launch`.
 fn too_early(request: &Request, is_initialized: bool) -> String {
     match request.command.as_str() {
-        "attach" => "a debugger cannot attach to a PLC or to `rungc serve`: use `launch`".to_owned(),
+        "attach" => {
+            "a debugger cannot attach to a PLC or to `rungc serve`: use `launch`".to_owned()
+        }
         command if is_initialized => format!("`{command}`: no program is launched yet"),
         command => format!("`{command}`: begin with `initialize`"),
     }
@@ -75,7 +77,11 @@ fn too_early(request: &Request, is_initialized: bool) -> String {
 
 fn initialize(request: &Request, editor: &mut Editor) -> Result<Value, String> {
     let arguments: Initialize = request.arguments()?;
-    if arguments.path_format.as_deref().is_some_and(|format| format != "path") {
+    if arguments
+        .path_format
+        .as_deref()
+        .is_some_and(|format| format != "path")
+    {
         return Err("`pathFormat` must be \"path\"".to_owned());
     }
     editor.lines_start_at1 = arguments.lines_start_at1;
@@ -138,7 +144,10 @@ fn launch<W: Write>(
             client.respond(request, Ok(Value::Null))?;
         }
         for name in &launch.unknown {
-            client.output("console", &format!("launch: the attribute `{name}` is unknown, and has no effect"))?;
+            client.output(
+                "console",
+                &format!("launch: the attribute `{name}` is unknown, and has no effect"),
+            )?;
         }
         let debugger = Debugger::new(client, editor, run, &launch);
         match debugger.serve(is_again)? {

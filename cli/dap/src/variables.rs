@@ -66,7 +66,10 @@ impl Scopes {
                 let device = Device { class, number };
                 let exists = project.model().has(class, number);
                 if let Some(scope) = scope_of(device).filter(|_| exists && seen.insert(device)) {
-                    let comment = source.comments.get(&device).map(|comment| one_line(comment).to_string());
+                    let comment = source
+                        .comments
+                        .get(&device)
+                        .map(|comment| one_line(comment).to_string());
                     scopes[scope].push(Variable { device, comment });
                 }
             }
@@ -167,7 +170,11 @@ pub fn described(plc: &mut Plc, name: &str) -> Result<(String, &'static str), St
         (Target::Current(class, number), _) => {
             let contact = session.reading(Target::Bit(class, number));
             let contact = contact.as_ref().map_or_else(String::new, shown);
-            let kind = if class == DeviceClass::T { "timer" } else { "counter" };
+            let kind = if class == DeviceClass::T {
+                "timer"
+            } else {
+                "counter"
+            };
             (format!("{text}, contact {contact}{mark}"), kind)
         }
         (_, Some(Reading::Bit(_))) => (format!("{text}{mark}"), "bit"),

@@ -81,7 +81,8 @@ impl<W: Write> Client<W> {
                 // Clients replace what is in braces by variables of the error, of which there are none.
                 let format = why.replace('{', "(").replace('}', ")");
                 message["message"] = json!(why);
-                message["body"] = json!({ "error": { "id": 1, "format": format, "showUser": true } });
+                message["body"] =
+                    json!({ "error": { "id": 1, "format": format, "showUser": true } });
             }
         }
         self.send(message)

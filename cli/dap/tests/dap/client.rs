@@ -105,7 +105,10 @@ impl Client {
         self.output.read_exact(&mut body).unwrap();
         let message: Value = serde_json::from_slice(&body).unwrap();
         let (kind, shown) = match message["type"].as_str().unwrap() {
-            "event" => (format!("event {}", message["event"].as_str().unwrap()), &message["body"]),
+            "event" => (
+                format!("event {}", message["event"].as_str().unwrap()),
+                &message["body"],
+            ),
             _ if message["success"] == true => ("answer".to_owned(), &message["body"]),
             _ => ("error".to_owned(), &message["message"]),
         };
@@ -122,7 +125,9 @@ impl Client {
         let shown = arguments.to_string().replace(&folder, "FOLDER");
         writeln!(self.transcript, "{command} {shown}").unwrap();
         let seq = self.seq;
-        self.send(&json!({ "seq": seq, "type": "request", "command": command, "arguments": arguments }));
+        self.send(
+            &json!({ "seq": seq, "type": "request", "command": command, "arguments": arguments }),
+        );
         loop {
             let message = self.receive().expect("the adapter has ended");
             if message["request_seq"] == seq {

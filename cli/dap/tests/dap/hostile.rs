@@ -33,15 +33,24 @@ fn requests_before_their_time_are_errors() {
         assert!(!answer["message"].as_str().unwrap().is_empty());
     }
     // A folder with one program.
-    assert_eq!(client.request("launch", json!({ "program": folder }))["success"], true);
-    assert_eq!(client.request("launch", json!({ "program": folder }))["success"], false);
+    assert_eq!(
+        client.request("launch", json!({ "program": folder }))["success"],
+        true
+    );
+    assert_eq!(
+        client.request("launch", json!({ "program": folder }))["success"],
+        false
+    );
     assert_eq!(client.end(), Ended::Abandoned);
 }
 
 #[test]
 fn wrong_arguments_are_errors() {
     let mut client = Client::launched(&json!({ "stopOnEntry": true }));
-    assert_eq!(client.request("next", json!({ "threadId": 1 }))["success"], false);
+    assert_eq!(
+        client.request("next", json!({ "threadId": 1 }))["success"],
+        false
+    );
     client.request("configurationDone", json!({}));
     client.event("stopped");
     let huge = i64::MAX;
@@ -55,23 +64,62 @@ fn wrong_arguments_are_errors() {
         ("variables", json!({ "variablesReference": -huge })),
         ("variables", json!({ "variablesReference": 0 })),
         ("variables", json!({ "variablesReference": 1e99 })),
-        ("setVariable", json!({ "variablesReference": 1, "name": "X000", "value": "many" })),
-        ("setVariable", json!({ "variablesReference": 99, "name": "X000", "value": "1" })),
-        ("setVariable", json!({ "variablesReference": 1, "name": "", "value": "1" })),
-        ("setExpression", json!({ "expression": "D0", "value": "70000" })),
-        ("setExpression", json!({ "expression": "M8000", "value": "0" })),
+        (
+            "setVariable",
+            json!({ "variablesReference": 1, "name": "X000", "value": "many" }),
+        ),
+        (
+            "setVariable",
+            json!({ "variablesReference": 99, "name": "X000", "value": "1" }),
+        ),
+        (
+            "setVariable",
+            json!({ "variablesReference": 1, "name": "", "value": "1" }),
+        ),
+        (
+            "setExpression",
+            json!({ "expression": "D0", "value": "70000" }),
+        ),
+        (
+            "setExpression",
+            json!({ "expression": "M8000", "value": "0" }),
+        ),
         ("evaluate", json!({ "expression": "" })),
         ("evaluate", json!({ "expression": "X999" })),
-        ("evaluate", json!({ "expression": "force", "context": "repl" })),
-        ("evaluate", json!({ "expression": "force X0", "context": "repl" })),
-        ("evaluate", json!({ "expression": "release D0", "context": "repl" })),
-        ("evaluate", json!({ "expression": "why Q", "context": "repl" })),
-        ("evaluate", json!({ "expression": "D0 = X", "context": "repl" })),
+        (
+            "evaluate",
+            json!({ "expression": "force", "context": "repl" }),
+        ),
+        (
+            "evaluate",
+            json!({ "expression": "force X0", "context": "repl" }),
+        ),
+        (
+            "evaluate",
+            json!({ "expression": "release D0", "context": "repl" }),
+        ),
+        (
+            "evaluate",
+            json!({ "expression": "why Q", "context": "repl" }),
+        ),
+        (
+            "evaluate",
+            json!({ "expression": "D0 = X", "context": "repl" }),
+        ),
         ("source", json!({})),
         ("setBreakpoints", json!({ "source": {} })),
-        ("setBreakpoints", json!({ "source": { "path": "a", "sourceReference": huge } })),
-        ("setBreakpoints", json!({ "source": { "path": "a" }, "breakpoints": [{ "line": "x" }] })),
-        ("breakpointLocations", json!({ "source": { "path": "a" }, "line": 1 })),
+        (
+            "setBreakpoints",
+            json!({ "source": { "path": "a", "sourceReference": huge } }),
+        ),
+        (
+            "setBreakpoints",
+            json!({ "source": { "path": "a" }, "breakpoints": [{ "line": "x" }] }),
+        ),
+        (
+            "breakpointLocations",
+            json!({ "source": { "path": "a" }, "line": 1 }),
+        ),
         ("setDataBreakpoints", json!({})),
         ("setExceptionBreakpoints", json!({ "filters": ["all"] })),
         ("exceptionInfo", json!({})),
@@ -86,13 +134,22 @@ fn wrong_arguments_are_errors() {
     for line in [0, -1, huge, -huge] {
         client.break_at(json!([{ "line": line }]));
         let source = json!({ "path": program });
-        client.request("breakpointLocations", json!({ "source": source, "line": line, "endLine": huge }));
+        client.request(
+            "breakpointLocations",
+            json!({ "source": source, "line": line, "endLine": huge }),
+        );
     }
     let many: Vec<Value> = (0..5_000).map(|line| json!({ "line": line })).collect();
     let source = json!({ "path": program });
-    let answer = client.request("setBreakpoints", json!({ "source": source, "breakpoints": many }));
+    let answer = client.request(
+        "setBreakpoints",
+        json!({ "source": source, "breakpoints": many }),
+    );
     assert_eq!(answer["success"], false);
-    client.request("variables", json!({ "variablesReference": 1, "start": huge, "count": -5 }));
+    client.request(
+        "variables",
+        json!({ "variablesReference": 1, "start": huge, "count": -5 }),
+    );
     assert_eq!(client.go("next").0, "step");
 }
 
@@ -106,7 +163,12 @@ fn messages_that_are_none_are_reported() {
     client.send(&json!({ "type": "request", "seq": 1, "command": "threads", "arguments": [] }));
     let answer = client.request("threads", json!({}));
     assert_eq!(answer["success"], true);
-    assert_eq!(client.transcript.matches("event output").count(), 5, "{}", client.transcript);
+    assert_eq!(
+        client.transcript.matches("event output").count(),
+        5,
+        "{}",
+        client.transcript
+    );
     client.write(b"Content-Length: 50\r\n\r\n{");
     assert_eq!(client.end(), Ended::Abandoned);
 }
@@ -115,9 +177,26 @@ fn messages_that_are_none_are_reported() {
 #[test]
 fn no_request_ends_the_adapter() {
     const COMMANDS: [&str; 20] = [
-        "threads", "stackTrace", "scopes", "variables", "setVariable", "setExpression", "evaluate", "next",
-        "stepOut", "stepBack", "reverseContinue", "setBreakpoints", "setDataBreakpoints", "dataBreakpointInfo",
-        "exceptionInfo", "source", "configurationDone", "setExceptionBreakpoints", "initialize", "pause",
+        "threads",
+        "stackTrace",
+        "scopes",
+        "variables",
+        "setVariable",
+        "setExpression",
+        "evaluate",
+        "next",
+        "stepOut",
+        "stepBack",
+        "reverseContinue",
+        "setBreakpoints",
+        "setDataBreakpoints",
+        "dataBreakpointInfo",
+        "exceptionInfo",
+        "source",
+        "configurationDone",
+        "setExceptionBreakpoints",
+        "initialize",
+        "pause",
     ];
     let mut random = fastrand::Rng::with_seed(7);
     let mut client = Client::launched(&json!({ "stopOnEntry": true }));
@@ -125,7 +204,20 @@ fn no_request_ends_the_adapter() {
     let program = client.program();
     for _ in 0..600 {
         let command = COMMANDS[random.usize(..COMMANDS.len())];
-        let mut texts = ["X0", "Y000 = 1", "force X2 1", "D0.f32", "K4M0", "{", "\"", "why Y0", "é", "X0 & (", "1"].into_iter();
+        let mut texts = [
+            "X0",
+            "Y000 = 1",
+            "force X2 1",
+            "D0.f32",
+            "K4M0",
+            "{",
+            "\"",
+            "why Y0",
+            "é",
+            "X0 & (",
+            "1",
+        ]
+        .into_iter();
         let text = texts.nth(random.usize(..11)).unwrap();
         let number = [0, 1, -1, 2, 5, 8, i64::MAX, i64::MIN][random.usize(..8)];
         let context = ["repl", "watch", "hover"][random.usize(..3)];

@@ -18,7 +18,10 @@ fn ids(value: &Value) -> Vec<i64> {
 #[test]
 fn a_session_from_its_beginning_to_its_end() {
     let mut client = Client::new();
-    client.request("initialize", json!({ "adapterID": "rungc", "supportsInvalidatedEvent": true }));
+    client.request(
+        "initialize",
+        json!({ "adapterID": "rungc", "supportsInvalidatedEvent": true }),
+    );
     let program = client.program();
     client.request(
         "launch",
@@ -26,7 +29,10 @@ fn a_session_from_its_beginning_to_its_end() {
     );
     client.event("initialized");
     client.break_at(json!([{ "line": line("OUT Y001") }, { "line": 99 }]));
-    client.request("setExceptionBreakpoints", json!({ "filters": ["plc-errors"] }));
+    client.request(
+        "setExceptionBreakpoints",
+        json!({ "filters": ["plc-errors"] }),
+    );
     client.request("configurationDone", json!({}));
     client.event("stopped");
     client.request("threads", json!({}));
@@ -35,7 +41,10 @@ fn a_session_from_its_beginning_to_its_end() {
     client.request("variables", json!({ "variablesReference": 1 }));
     client.request("variables", json!({ "variablesReference": 5 }));
     client.go("next");
-    client.request("setVariable", json!({ "variablesReference": 1, "name": "X000 Start", "value": "on" }));
+    client.request(
+        "setVariable",
+        json!({ "variablesReference": 1, "name": "X000 Start", "value": "on" }),
+    );
     client.request("stepBack", json!({ "threadId": 1 }));
     client.event("stopped");
     client.evaluate("X000 = on", "repl");
@@ -56,28 +65,53 @@ fn breakpoints_stop_at_instructions() {
     let set = client.break_at(json!([
         { "line": line("OUT Y001"), "condition": "Y001 = T0 & T0" },
         { "line": line("OUT Y001"), "condition": "T0 & !Y001" },
-        { "line": line("INC D5"), "hitCondition": "% 10" },
+        { "line": line("INC D5"), "hitCondition": "= 10" },
         { "line": line("LD T0"), "logMessage": "T0 = {T0}, { D5 } scans" },
         { "line": 1, "condition": "rises(X000)" },
         { "line": 1, "condition": "X000 &" },
         { "line": 1, "hitCondition": "often" },
         { "line": 1, "logMessage": "{Q}" },
     ]));
-    let verified: Vec<_> = set.as_array().unwrap().iter().map(|point| point["verified"] == true).collect();
-    assert_eq!(&verified[1..], [true, true, true, false, false, false, false]);
+    let verified: Vec<_> = set
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|point| point["verified"] == true)
+        .collect();
+    assert_eq!(
+        &verified[1..],
+        [true, true, true, false, false, false, false]
+    );
     client.request("configurationDone", json!({}));
     let stopped = client.event("stopped");
     assert_eq!(stopped["reason"], "breakpoint");
-    assert_eq!(stopped["hitBreakpointIds"], json!([ids(&set)[1]]), "{}", client.transcript);
-    let frame = client.frame();
-    assert_eq!(frame["line"], line("OUT Y001"));
-    assert!(client.value("T0").starts_with("5, contact on"), "{}", client.transcript);
-    let at_hit = client.value("D5");
-    assert!(client.transcript.contains(&format!("T0 = 5, {at_hit} scans")), "{}", client.transcript);
-    // The tenth execution of INC D5: it is not executed yet.
-    let (reason, frame) = client.go("continue");
-    assert_eq!((reason.as_str(), &frame["line"]), ("breakpoint", &json!(line("INC D5"))));
+    assert_eq!(
+        stopped["hitBreakpointIds"],
+        json!([ids(&set)[2]]),
+        "{}",
+        client.transcript
+    );
+    // The tenth execution: the instruction is not executed yet.
+    assert_eq!(client.frame()["line"], line("INC D5"));
     assert_eq!(client.value("D5"), "9");
+    let (reason, frame) = client.go("continue");
+    assert_eq!(
+        (reason.as_str(), &frame["line"]),
+        ("breakpoint", &json!(line("OUT Y001")))
+    );
+    assert!(
+        client.value("T0").starts_with("5, contact on"),
+        "{}",
+        client.transcript
+    );
+    let at_hit = client.value("D5");
+    assert!(
+        client
+            .transcript
+            .contains(&format!("T0 = 5, {at_hit} scans")),
+        "{}",
+        client.transcript
+    );
     client.request("disconnect", json!({}));
     assert_eq!(client.end(), Ended::Disconnected);
 }
@@ -89,7 +123,10 @@ fn changes_of_devices_stop_and_time_goes_back() {
     client.event("stopped");
     let info = client.request("dataBreakpointInfo", json!({ "name": "Motor" }));
     assert_eq!(info["body"]["dataId"], "Motor");
-    let info = client.request("dataBreakpointInfo", json!({ "variablesReference": 2, "name": "Y000 Motor" }));
+    let info = client.request(
+        "dataBreakpointInfo",
+        json!({ "variablesReference": 2, "name": "Y000 Motor" }),
+    );
     assert_eq!(info["body"]["dataId"], "Y000");
     let points = json!([{ "dataId": "Y000", "accessType": "write" }, { "dataId": "Q7" }]);
     let set = client.request("setDataBreakpoints", json!({ "breakpoints": points }));
@@ -97,15 +134,24 @@ fn changes_of_devices_stop_and_time_goes_back() {
     client.evaluate("X0 = 1", "repl");
     // Stops at what follows the instruction that changes it.
     let (reason, frame) = client.go("continue");
-    assert_eq!((reason.as_str(), &frame["line"]), ("data breakpoint", &json!(line("LD T0"))));
+    assert_eq!(
+        (reason.as_str(), &frame["line"]),
+        ("data breakpoint", &json!(line("LD T0")))
+    );
     assert!(client.transcript.contains("Y000 has changed from 0 to 1"));
-    assert_eq!((client.value("Y000").as_str(), client.value("D5").as_str()), ("on", "0"));
+    assert_eq!(
+        (client.value("Y000").as_str(), client.value("D5").as_str()),
+        ("on", "0")
+    );
     client.go("stepBack");
     assert_eq!(client.value("Y000"), "off");
     for _ in 0..3 {
         client.go("stepOut");
     }
-    assert_eq!((client.value("Y000").as_str(), client.value("D5").as_str()), ("on", "3"));
+    assert_eq!(
+        (client.value("Y000").as_str(), client.value("D5").as_str()),
+        ("on", "3")
+    );
     // Within a scan a change takes effect at once, and stays when the scan is executed again.
     client.go("next");
     client.evaluate("X001 = on", "repl");
@@ -113,14 +159,26 @@ fn changes_of_devices_stop_and_time_goes_back() {
     client.go("next");
     assert_eq!(client.value("M0"), "off", "{}", client.transcript);
     let (reason, frame) = client.go("continue");
-    assert_eq!((reason.as_str(), &frame["line"]), ("data breakpoint", &json!(line("LD T0"))));
-    assert_eq!((client.value("Y000").as_str(), client.value("D5").as_str()), ("off", "3"));
+    assert_eq!(
+        (reason.as_str(), &frame["line"]),
+        ("data breakpoint", &json!(line("LD T0")))
+    );
+    assert_eq!(
+        (client.value("Y000").as_str(), client.value("D5").as_str()),
+        ("off", "3")
+    );
     let (reason, _) = client.go("reverseContinue");
     assert_eq!(reason, "data breakpoint", "{}", client.transcript);
-    assert_eq!((client.value("Y000").as_str(), client.value("D5").as_str()), ("on", "0"));
+    assert_eq!(
+        (client.value("Y000").as_str(), client.value("D5").as_str()),
+        ("on", "0")
+    );
     // And forwards again: the change is where it was made.
     client.go("continue");
-    assert_eq!((client.value("X001").as_str(), client.value("D5").as_str()), ("on", "3"));
+    assert_eq!(
+        (client.value("X001").as_str(), client.value("D5").as_str()),
+        ("on", "3")
+    );
     client.go("reverseContinue");
     let (reason, _) = client.go("reverseContinue");
     assert_eq!(reason, "entry", "{}", client.transcript);
@@ -132,7 +190,10 @@ fn changes_of_devices_stop_and_time_goes_back() {
 #[test]
 fn errors_of_the_plc_stop() {
     let mut client = Client::launched(&json!({}));
-    client.request("setExceptionBreakpoints", json!({ "filters": ["plc-errors"] }));
+    client.request(
+        "setExceptionBreakpoints",
+        json!({ "filters": ["plc-errors"] }),
+    );
     client.request("configurationDone", json!({}));
     // While it runs.
     assert_eq!(client.evaluate("force X002 on", "repl"), "X002 is forced");
@@ -147,7 +208,12 @@ fn errors_of_the_plc_stop() {
     client.evaluate("D1 = 5", "repl");
     client.request("continue", json!({ "threadId": 1 }));
     client.request("pause", json!({ "threadId": 1 }));
-    assert_eq!(client.event("stopped")["reason"], "pause", "{}", client.transcript);
+    assert_eq!(
+        client.event("stopped")["reason"],
+        "pause",
+        "{}",
+        client.transcript
+    );
     assert!(client.request("exceptionInfo", json!({}))["success"] == false);
 }
 
@@ -166,7 +232,12 @@ fn a_restart_reads_the_program_again() {
     assert_eq!(moved["breakpoint"]["line"], line("OUT Y000"));
     client.event("stopped");
     // The line is that of the editor; on it is another instruction now.
-    assert!(client.frame()["name"].as_str().unwrap().starts_with("OUT T0 K5"));
+    assert!(
+        client.frame()["name"]
+            .as_str()
+            .unwrap()
+            .starts_with("OUT T0 K5")
+    );
 }
 
 #[test]
