@@ -1,5 +1,5 @@
-//! A debug adapter: an editor that speaks the Debug Adapter Protocol runs a program of an FX-family PLC, stops it at its
-//! instructions, and goes forwards and back in time.
+//! A debug adapter: an editor that speaks the Debug Adapter Protocol runs a program of an FX-family PLC, stops it at
+//! its instructions, and steps forwards and back in time.
 //!
 //! It is a front, as the language server is: the program runs on the reference interpreter, in a session of
 //! `rungc-sim`. The interpreter cannot be stopped within a scan. So a place within a scan is the number of statements

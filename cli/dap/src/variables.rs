@@ -193,8 +193,8 @@ fn shown(reading: &Reading) -> String {
     }
 }
 
-/// Reads a value as a user writes it: `on`, `off`, `true`, `false`, `12`, `-3.5`, `H1F`, `K100`; what follows a comma is
-/// left out, as the values of [`described`] have it.
+/// Reads a value as a user writes it: `on`, `off`, `true`, `false`, `12`, `-3.5`, `H1F`, `K100`. What follows a comma
+/// is left out, as the values of [`described`] have it.
 ///
 /// # Errors
 /// It is none.

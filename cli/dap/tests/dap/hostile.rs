@@ -129,7 +129,15 @@ fn wrong_arguments_are_errors() {
         let answer = client.request(command, arguments.clone());
         assert_eq!(answer["success"], false, "{command} {arguments}: {answer}");
     }
-    // Lines at the ends of what a number can be.
+}
+
+/// Lines and counts at the ends of what a number can be.
+#[test]
+fn huge_numbers_are_only_numbers() {
+    let mut client = Client::launched(&json!({ "stopOnEntry": true }));
+    client.request("configurationDone", json!({}));
+    client.event("stopped");
+    let huge = i64::MAX;
     let program = client.program();
     for line in [0, -1, huge, -huge] {
         client.break_at(json!([{ "line": line }]));
