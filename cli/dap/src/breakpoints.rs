@@ -18,7 +18,7 @@ const MOST: usize = 4096;
 pub struct Point {
     /// The instruction.
     pub instr: usize,
-    /// When it stops.
+    /// Its conditions.
     pub stop: When,
     /// Message that is logged instead of stopping.
     pub log: Option<Log>,
@@ -28,17 +28,17 @@ pub struct Point {
 pub struct DataPoint {
     /// The device.
     pub target: Target,
-    /// When a change of it stops.
+    /// Conditions for a stop.
     pub stop: When,
 }
 
-/// When a breakpoint that is reached stops.
+/// Conditions of a breakpoint that is reached.
 pub struct When {
     /// Number of the breakpoint.
     pub id: i64,
     condition: Option<Condition>,
     hits: Option<Hits>,
-    /// How often it was reached.
+    /// Number of times that it was reached.
     count: u64,
 }
 
@@ -234,7 +234,7 @@ impl Breakpoints {
                         "line": places.line(point.instr),
                         "source": places.source(point.instr),
                     }),
-                    Err(why) => refused(*id, why),
+                    Err(why) => rejected(*id, why),
                 });
                 stops.points.extend(point.ok());
             }
@@ -245,7 +245,7 @@ impl Breakpoints {
             let point = data_point(*id, wanted, plc, program);
             on_devices.push(match &point {
                 Ok(_) => json!({ "id": id, "verified": true }),
-                Err(why) => refused(*id, why),
+                Err(why) => rejected(*id, why),
             });
             stops.data.extend(point.ok());
         }
@@ -267,7 +267,7 @@ pub struct Resolved {
     pub on_devices: Vec<Value>,
 }
 
-fn refused(id: i64, why: &str) -> Value {
+fn rejected(id: i64, why: &str) -> Value {
     json!({ "id": id, "verified": false, "message": why, "reason": "failed" })
 }
 

@@ -23,7 +23,7 @@ const OF_EDITORS: [&str; 12] = [
     "args",
 ];
 
-/// What is to be launched.
+/// Settings of a launch.
 #[derive(Clone, Debug)]
 pub struct Launch {
     /// File of the program, or a folder with one.

@@ -8,7 +8,7 @@ use rungc_sim::record::{Reading, Seen};
 use rungc_sim::{Target, set};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// What is looked for in a scan.
+/// Object of a search in a scan.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Search {
     /// Nothing.
@@ -56,7 +56,7 @@ impl Hit {
     }
 }
 
-/// What stops a run.
+/// Breakpoints of a run.
 #[derive(Default)]
 pub struct Stops {
     /// At instructions.
@@ -98,7 +98,7 @@ struct Scan {
 #[derive(Clone)]
 pub struct Watch(Arc<Mutex<Scan>>);
 
-/// What was seen of a scan.
+/// Result of a search in a scan.
 pub struct Scanned {
     /// The stop that was looked for.
     pub hit: Option<Hit>,

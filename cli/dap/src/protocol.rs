@@ -88,7 +88,7 @@ pub struct SourceArguments {
 /// Arguments of `setBreakpoints`.
 #[derive(Deserialize, Debug)]
 pub struct SetBreakpoints {
-    /// Where they are.
+    /// Their place.
     pub source: SourceArguments,
     /// All of the source.
     #[serde(default)]
@@ -213,7 +213,7 @@ pub struct SetExpression {
 /// Arguments of `evaluate`.
 #[derive(Deserialize, Debug)]
 pub struct Evaluate {
-    /// What is to be evaluated.
+    /// A device, a condition or a command.
     pub expression: String,
     /// `repl`, `watch`, `hover` and others.
     #[serde(default)]

@@ -27,7 +27,7 @@ struct Inside {
     instr: usize,
 }
 
-/// Where a run has stopped.
+/// A stop of a run.
 #[derive(Clone, Debug)]
 pub struct Stopped {
     /// The reason; `None` where nothing was met: at the end of a scan, or of the history.
@@ -36,7 +36,7 @@ pub struct Stopped {
     pub is_first: bool,
 }
 
-/// What a scan has shown.
+/// Result of a scan.
 pub struct Progress {
     /// The stop that it came to.
     pub stopped: Option<Stopped>,
@@ -58,7 +58,7 @@ pub struct Run<'p> {
     scans: u64,
     scan_ms: Option<u64>,
     history: History<Snapshot>,
-    /// What came from outside, by the scan and the place in it: 0 before the scan, else the number of the place and 1.
+    /// Changes from outside, by the scan and the place in it: 0 before the scan, else the number of the place and 1.
     changes: BTreeMap<(u64, u32), Vec<Change>>,
     watch: Watch,
 }

@@ -13,7 +13,7 @@ use std::io::{self, Read, Write};
 /// Identifier of the only filter of exceptions.
 pub const PLC_ERRORS: &str = "plc-errors";
 
-/// What is known of an editor.
+/// An editor with its breakpoints.
 pub struct Editor {
     /// Lines are counted from 1, not from 0.
     pub lines_start_at1: bool,

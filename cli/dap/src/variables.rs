@@ -92,7 +92,7 @@ impl Scopes {
         .collect()
     }
 
-    /// The variables of a scope, from one on, so many of them.
+    /// The variables of a scope, from `start` on, `count` of them; all if it is 0.
     ///
     /// # Errors
     /// There is no such scope.

@@ -14,7 +14,7 @@ const MAX_HEADER: u64 = 8 << 10;
 /// Most messages that wait.
 const MAX_WAITING: usize = 256;
 
-/// What arrives from the client.
+/// A message from the client.
 #[derive(Debug)]
 pub enum Incoming {
     /// A request.

@@ -44,6 +44,41 @@ fn requests_before_their_time_are_errors() {
     assert_eq!(client.end(), Ended::Abandoned);
 }
 
+/// Requests with arguments that are wrong, in a program that stands before its first scan.
+const WRONG: &str = r#"
+configurationDone {}
+next {"threadId": 2}
+continue {}
+stackTrace {"threadId": 9223372036854775807}
+stackTrace {"threadId": "1"}
+variables {"variablesReference": 9223372036854775807}
+variables {"variablesReference": -9223372036854775807}
+variables {"variablesReference": 0}
+variables {"variablesReference": 1e99}
+setVariable {"variablesReference": 1, "name": "X000", "value": "many"}
+setVariable {"variablesReference": 99, "name": "X000", "value": "1"}
+setVariable {"variablesReference": 1, "name": "", "value": "1"}
+setExpression {"expression": "D0", "value": "70000"}
+setExpression {"expression": "M8000", "value": "0"}
+evaluate {"expression": ""}
+evaluate {"expression": "X999"}
+evaluate {"expression": "force", "context": "repl"}
+evaluate {"expression": "force X0", "context": "repl"}
+evaluate {"expression": "release D0", "context": "repl"}
+evaluate {"expression": "why Q", "context": "repl"}
+evaluate {"expression": "D0 = X", "context": "repl"}
+source {}
+setBreakpoints {"source": {}}
+setBreakpoints {"source": {"path": "a", "sourceReference": 9223372036854775807}}
+setBreakpoints {"source": {"path": "a"}, "breakpoints": [{"line": "x"}]}
+breakpointLocations {"source": {"path": "a"}, "line": 1}
+setDataBreakpoints {}
+setExceptionBreakpoints {"filters": ["all"]}
+exceptionInfo {}
+disassemble {}
+gotoTargets {}
+"#;
+
 #[test]
 fn wrong_arguments_are_errors() {
     let mut client = Client::launched(&json!({ "stopOnEntry": true }));
@@ -53,81 +88,10 @@ fn wrong_arguments_are_errors() {
     );
     client.request("configurationDone", json!({}));
     client.event("stopped");
-    let huge = i64::MAX;
-    for (command, arguments) in [
-        ("configurationDone", json!({})),
-        ("next", json!({ "threadId": 2 })),
-        ("continue", json!({})),
-        ("stackTrace", json!({ "threadId": huge })),
-        ("stackTrace", json!({ "threadId": "1" })),
-        ("variables", json!({ "variablesReference": huge })),
-        ("variables", json!({ "variablesReference": -huge })),
-        ("variables", json!({ "variablesReference": 0 })),
-        ("variables", json!({ "variablesReference": 1e99 })),
-        (
-            "setVariable",
-            json!({ "variablesReference": 1, "name": "X000", "value": "many" }),
-        ),
-        (
-            "setVariable",
-            json!({ "variablesReference": 99, "name": "X000", "value": "1" }),
-        ),
-        (
-            "setVariable",
-            json!({ "variablesReference": 1, "name": "", "value": "1" }),
-        ),
-        (
-            "setExpression",
-            json!({ "expression": "D0", "value": "70000" }),
-        ),
-        (
-            "setExpression",
-            json!({ "expression": "M8000", "value": "0" }),
-        ),
-        ("evaluate", json!({ "expression": "" })),
-        ("evaluate", json!({ "expression": "X999" })),
-        (
-            "evaluate",
-            json!({ "expression": "force", "context": "repl" }),
-        ),
-        (
-            "evaluate",
-            json!({ "expression": "force X0", "context": "repl" }),
-        ),
-        (
-            "evaluate",
-            json!({ "expression": "release D0", "context": "repl" }),
-        ),
-        (
-            "evaluate",
-            json!({ "expression": "why Q", "context": "repl" }),
-        ),
-        (
-            "evaluate",
-            json!({ "expression": "D0 = X", "context": "repl" }),
-        ),
-        ("source", json!({})),
-        ("setBreakpoints", json!({ "source": {} })),
-        (
-            "setBreakpoints",
-            json!({ "source": { "path": "a", "sourceReference": huge } }),
-        ),
-        (
-            "setBreakpoints",
-            json!({ "source": { "path": "a" }, "breakpoints": [{ "line": "x" }] }),
-        ),
-        (
-            "breakpointLocations",
-            json!({ "source": { "path": "a" }, "line": 1 }),
-        ),
-        ("setDataBreakpoints", json!({})),
-        ("setExceptionBreakpoints", json!({ "filters": ["all"] })),
-        ("exceptionInfo", json!({})),
-        ("disassemble", json!({})),
-        ("gotoTargets", json!({})),
-    ] {
-        let answer = client.request(command, arguments.clone());
-        assert_eq!(answer["success"], false, "{command} {arguments}: {answer}");
+    for line in WRONG.trim().lines() {
+        let (command, arguments) = line.split_once(' ').unwrap();
+        let answer = client.request(command, serde_json::from_str(arguments).unwrap());
+        assert_eq!(answer["success"], false, "{line}: {answer}");
     }
 }
 
