@@ -1,4 +1,4 @@
-//! The adapter under a client of its own, over pipes.
+//! Sessions of the adapter with a client over pipes.
 
 mod client;
 mod hostile;
