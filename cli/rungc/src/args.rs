@@ -2,6 +2,7 @@
 
 mod boards;
 mod book;
+mod dap;
 mod diff;
 mod effects;
 mod emit;
@@ -24,6 +25,7 @@ mod why;
 
 pub use boards::BoardsArgs;
 pub use book::{BookArgs, ExplainArgs, ManArgs};
+pub use dap::DapArgs;
 pub use diff::{DiffArgs, DiffFormat};
 pub use effects::{idle, long_option};
 pub use emit::{Backend, Emit};
@@ -189,6 +191,12 @@ pub enum Command {
     /// (`rungc book editors`) and talk to it on standard input and output. Exit codes: 0: shut
     /// down by the editor; 1: the connection ended without that.
     Lsp(LspArgs),
+    /// Debug a program in an editor over the Debug Adapter Protocol.
+    ///
+    /// The program runs in virtual time; the editor stops it at instructions, device changes and errors, and goes back
+    /// in time. Editors start this command (`rungc book debugging`) and talk to it on standard input and output. Exit
+    /// codes: 0: disconnected by the editor; 1: the connection ended without that.
+    Dap(DapArgs),
     /// Serve an assistant over the Model Context Protocol.
     ///
     /// Offers tools that read, check, run, test and prove programs, pages of the book, and prompts. Assistants start

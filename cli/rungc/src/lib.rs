@@ -60,6 +60,7 @@ pub fn main() -> ExitCode {
         Command::Boards(args) => commands::boards::run(args, cx),
         Command::Flash(args) => commands::flash::run(args, cx),
         Command::Lsp(_) => commands::lsp::run(),
+        Command::Dap(_) => commands::dap::run(),
         Command::Mcp(args) => commands::mcp::run(args),
         Command::Guide => commands::mcp::guide(),
         Command::Init(args) => commands::init::run(args, cx),
@@ -125,6 +126,7 @@ fn context(cli: &Cli, language: language::Chosen) -> Context {
             | Command::Stats(_)
             | Command::Diff(_)
             | Command::Lsp(_)
+            | Command::Dap(_)
             | Command::Mcp(_)
             | Command::Verify(_) => true,
             Command::Xref(args) => is_printed(&args.output),

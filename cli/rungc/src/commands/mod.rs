@@ -5,6 +5,7 @@ pub mod book;
 pub mod build;
 pub mod check;
 pub mod convert;
+pub mod dap;
 mod defaults;
 pub mod demo;
 pub mod diff;

@@ -14,6 +14,7 @@ mod common;
 mod connected;
 mod conversions;
 mod coverage;
+mod debugging;
 mod deep;
 mod demo;
 mod diff;
