@@ -294,6 +294,14 @@ impl Connection {
         self.rows.iter().filter(move |row| row.reads == reads)
     }
 
+    /// The connection without the rows that are read; the others have their places.
+    pub(super) fn written(&self) -> Connection {
+        Connection {
+            rows: self.directed(false).cloned().collect(),
+            ..self.clone()
+        }
+    }
+
     /// Number of values that it reads, or writes.
     pub fn values(&self, reads: bool) -> usize {
         let ends = self.directed(reads).map(|row| row.place.end);
