@@ -38,7 +38,7 @@ impl ExchangeError {
 /// Exchange of values with a remote end.
 pub trait Driver: Send {
     /// Reads all rows that are read into `inputs` and writes `outputs` by the rows that are written, each at the
-    /// places that [`Row::place`](super::Row::place) names; a bit is 0 or 1. A row that the other end refuses keeps no
+    /// places that [`Row::place`](super::Row::place) names; a bit is 0 or 1. A row that the other end rejects keeps no
     /// other row from its turn: outputs change, and are turned off at the end, whatever becomes of an input.
     ///
     /// # Errors
@@ -59,7 +59,7 @@ pub trait Driver: Send {
     fn end(&mut self) {}
 }
 
-/// Gives each row its turn, also after one that is refused; the first error is returned, a lost end at once.
+/// Gives each row its turn, also after one that is rejected; the first error is returned, a lost end at once.
 pub(super) fn each_row(
     connection: &Connection,
     mut turn: impl FnMut(&Row) -> Result<(), ExchangeError>,

@@ -102,7 +102,7 @@ impl<W: Wire> Driver for Remote<W> {
     }
 }
 
-/// What of an answer does not fit its request.
+/// The part of an answer that does not fit its request.
 fn misfit(fault: LineFault) -> &'static str {
     match fault {
         LineFault::Station | LineFault::Address => "it is from another station or address",

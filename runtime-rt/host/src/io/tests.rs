@@ -284,9 +284,9 @@ fn files_are_read_and_written() {
     fs::remove_dir_all(&folder).unwrap();
 }
 
-/// Outputs change while an input is refused, and are off at the end.
+/// Outputs change while an input is rejected, and are off at the end.
 #[test]
-fn a_row_that_is_refused_keeps_no_other_from_its_turn() {
+fn a_row_that_is_rejected_keeps_no_other_from_its_turn() {
     let folder = std::env::temp_dir().join(format!("rungc-io-refused-{}", std::process::id()));
     fs::create_dir_all(&folder).unwrap();
     let pairs = [
