@@ -111,21 +111,34 @@ fn tables_are_workbooks_too() {
 /// A comment such as the designation of a contactor, or something worse, is a text in a spreadsheet.
 #[test]
 fn no_comment_is_a_formula_in_a_table() {
-    let comments = ["=A1-K1", "+24 V", "-Q1", "@SUM(A1)", "＝1", "=cmd|'/c calc'!A0"];
+    let comments = [
+        "=A1-K1",
+        "+24 V",
+        "-Q1",
+        "@SUM(A1)",
+        "＝1",
+        "=cmd|'/c calc'!A0",
+    ];
     let lines = comments.iter().enumerate();
-    let lines: Vec<_> = lines.map(|(n, text)| format!(";! X{n:03} = {text}\n")).collect();
+    let lines: Vec<_> = lines
+        .map(|(n, text)| format!(";! X{n:03} = {text}\n"))
+        .collect();
     let program = format!("{};! X006 = -5\n;! X007 = a=b\n{USES}", lines.concat());
     let folder = folder(&[("uses.il", program.as_bytes())]);
     for to in ["io", "tags", "csv"] {
         let out = rungc(folder.path(), &["xref", "uses.il", "--to", to]).stdout;
-        let mut reader = csv::Reader::from_reader(out.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&out));
+        let mut reader =
+            csv::Reader::from_reader(out.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&out));
         let cells: Vec<String> = reader
             .records()
             .flat_map(|row| row.unwrap().iter().map(str::to_owned).collect::<Vec<_>>())
             .collect();
         let begins = |cell: &&String| cell.starts_with(['=', '+', '@', '＝']) || *cell == "-Q1";
         assert_eq!(cells.iter().find(begins), None, "{to}");
-        assert!(cells.iter().any(|cell| cell == "'=A1-K1"), "{to}: {cells:?}");
+        assert!(
+            cells.iter().any(|cell| cell == "'=A1-K1"),
+            "{to}: {cells:?}"
+        );
         if to == "io" {
             let plain = ["-5", "a=b"].map(|text| cells.iter().any(|cell| cell == text));
             assert_eq!(plain, [true; 2], "{cells:?}");
