@@ -3,7 +3,7 @@
 use crate::answer::{Link, Place};
 use crate::graph::{Fact, FactKind, Graph, Id, Node};
 use rungc_analysis::resolve::Resolved;
-use rungc_catalogue::Lower;
+use rungc_catalogue::{Basic, Lower};
 use rungc_ladder::Ladder;
 use rungc_syntax::{Device, OperandKind};
 
@@ -69,6 +69,15 @@ impl Words<'_> {
         Some(format!("{a} {} {b}", op.symbol()))
     }
 
+    /// Returns true for a normally closed contact.
+    fn is_inverted(&self, instr: Option<usize>) -> bool {
+        let lower = instr.and_then(|instr| self.resolved.instrs[instr].lower);
+        matches!(
+            lower,
+            Some(Lower::Basic(Basic::Ldi | Basic::Ani | Basic::Ori))
+        )
+    }
+
     /// A bit that is not followed further, in words, and as its opposite.
     fn fact(&self, fact: &Fact) -> [String; 2] {
         let source = || match fact.instr {
@@ -82,9 +91,12 @@ impl Words<'_> {
         match fact.kind {
             FactKind::Constant | FactKind::WordBit | FactKind::Indexed => {
                 let operand = fact.instr.and_then(|instr| self.operand(instr, 0));
-                match operand {
-                    Some(operand) => [operand.to_string(), format!("not {operand}")],
-                    None => [source(), format!("not {}", source())],
+                let text = operand.map_or_else(source, ToString::to_string);
+                let inverse = format!("not {text}");
+                // What is constant is the contact, not its relay: LDI M8000.
+                match fact.kind == FactKind::Constant && self.is_inverted(fact.instr) {
+                    true => [inverse, text],
+                    false => [text, inverse],
                 }
             }
             FactKind::Comparison => {
