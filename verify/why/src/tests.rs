@@ -204,7 +204,7 @@ fn an_answer_leaves_the_run_as_it_was() {
 fn contacts_that_never_change_are_shown_as_they_are() {
     let built = build(
         "LDI M8000\nOUT Y000\nLD X001\nANI M8000\nOUT Y001\nLD M8000\nOUT Y002\nLD X001\nORI M8001\nOUT Y003\n\
-         LD M8000\nINV\nOUT Y004\nLDI M8000\nINV\nOUT Y005\nEND\n",
+         LD M8000\nINV\nOUT Y004\nLDI M8000\nINV\nOUT Y005\nLDP X001\nINV\nOUT Y006\nEND\n",
     );
     let explainer = Explainer::new(&built.program, &built.module, &built.marks);
     for (name, condition) in [
@@ -214,6 +214,7 @@ fn contacts_that_never_change_are_shown_as_they_are() {
         ("Y003", "X001 or not M8001"),
         ("Y004", "not M8000"),
         ("Y005", "M8000"),
+        ("Y006", "not (X001 coming on)"),
     ] {
         let why = explainer.of_program(device(name));
         assert_eq!(why.writers[0].condition, condition, "{name}");

@@ -149,7 +149,8 @@ impl Words<'_> {
                     _ => None,
                 };
                 if let Some((a, verb)) = edge {
-                    return format!("{} {verb}", self.within(graph, a, Around::Not));
+                    let edge = format!("{} {verb}", self.within(graph, a, Around::Not));
+                    return group(edge, Around::And);
                 }
                 let [a, b] = [a, b].map(|part| self.within(graph, *part, Around::And));
                 group(format!("{a} and {b}"), Around::And)
