@@ -30,13 +30,10 @@ impl Reader {
             let name = format!("{above}{}", key.get_ref());
             if let DeValue::Table(below) = value.get_ref() {
                 self.labels_below(&format!("{name}."), below, labels);
-            } else if is_device(&name)
-                || is_constant(name.trim())
-                || name.trim().is_empty()
-                || name.contains(char::is_control)
+            } else if is_device(&name) || name.trim().is_empty() || name.contains(char::is_control)
             {
                 let message = format!("`{}` is not a label", name.escape_debug());
-                let help = "a label is a text of one line, and neither a device nor a constant";
+                let help = "a label is a text of one line, and not a device";
                 self.wrong(span(key.span()), message, help);
             } else if let Some((device, span)) = self.labelled(&name, value) {
                 labels.push(Label { name, device, span });
@@ -59,21 +56,4 @@ impl Reader {
 /// Returns true if a name reads as a device, so that it cannot name another one.
 fn is_device(name: &str) -> bool {
     device::device(&name.to_uppercase()).is_some()
-}
-
-/// Returns true if a name reads as a number or a group of bits: conditions such as `D0 > K5` mean these. `K1` is the name
-/// of many a contactor.
-fn is_constant(name: &str) -> bool {
-    let upper = name.to_uppercase();
-    let digits = upper.trim_start_matches(['+', '-']);
-    let all = |text: &str, of: fn(&u8) -> bool| !text.is_empty() && text.bytes().all(|b| of(&b));
-    let decimal = |text: &str| all(text, u8::is_ascii_digit);
-    if let Some(rest) = upper.strip_prefix('K') {
-        let group = rest.split_at_checked(1).filter(|(count, _)| decimal(count));
-        return decimal(rest) || group.is_some_and(|(_, bits)| is_device(bits));
-    }
-    match upper.strip_prefix('H') {
-        Some(rest) => all(rest, u8::is_ascii_hexdigit),
-        None => digits.starts_with(|c: char| c.is_ascii_digit()) && digits.parse::<f64>().is_ok(),
-    }
 }
