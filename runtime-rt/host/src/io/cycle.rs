@@ -384,7 +384,9 @@ fn work(connection: &Connection, shared: &Shared, open: Opener) {
         };
         let result = match &mut driver {
             // What is read then is of no use, and whether it comes is not asked.
-            Some(driver) if ends => driver.exchange(&connection.written(), &mut inputs, &outputs),
+            Some(driver) if ends && connection.kind.asks() => {
+                driver.exchange(&connection.written(), &mut inputs, &outputs)
+            }
             Some(driver) => driver.exchange(connection, &mut inputs, &outputs),
             // An end that was lost is not waited for any more.
             None if ends => Err(ExchangeError::Lost("the run has ended".to_string())),

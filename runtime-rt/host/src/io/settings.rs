@@ -35,6 +35,11 @@ impl Kind {
         Kind::Console,
     ];
 
+    /// Returns true if rows that are read are asked for, one by one, in each cycle.
+    pub(super) const fn asks(self) -> bool {
+        matches!(self, Kind::ModbusTcp | Kind::ModbusRtu | Kind::Files)
+    }
+
     /// The key that says where its other end is.
     pub const fn key(self) -> &'static str {
         match self {
