@@ -118,13 +118,14 @@ fn no_comment_is_a_formula_in_a_table() {
         "@SUM(A1)",
         "＝1",
         "=cmd|'/c calc'!A0",
+        "-5",
+        "a=b",
     ];
     let lines = comments.iter().enumerate();
-    let lines: Vec<_> = lines
-        .map(|(n, text)| format!(";! X{n:03} = {text}\n"))
+    let lines: String = lines
+        .map(|(n, text)| format!(";! X{n:03o} = {text}\nLD X{n:03o}\nOUT M{n}\n"))
         .collect();
-    let program = format!("{};! X006 = -5\n;! X007 = a=b\n{USES}", lines.concat());
-    let folder = folder(&[("uses.il", program.as_bytes())]);
+    let folder = folder(&[("uses.il", format!("{lines}END\n").as_bytes())]);
     for to in ["io", "tags", "csv"] {
         let out = rungc(folder.path(), &["xref", "uses.il", "--to", to]).stdout;
         let mut reader =
