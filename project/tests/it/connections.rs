@@ -41,8 +41,8 @@ X007-X010 = "read b"
     assert_eq!(project.source.slice(why.span), "X777");
 }
 
-/// A value from elsewhere that each scan replaces is never seen. What the program may write, a connection may, too: M8034
-/// turns the outputs off while an end is lost. Devices that a row writes elsewhere are only read.
+/// A value from elsewhere that each scan replaces is never seen. What the program may write, a connection may, too:
+/// M8034 turns the outputs off while an end is lost. Devices that a row writes elsewhere are only read.
 #[test]
 fn what_each_scan_sets_takes_no_value_from_elsewhere() {
     let model = Model::get(ModelId::Fx3u);

@@ -263,7 +263,9 @@ fn texts_have_the_instructions_of_fx3u() {
 fn a_name_that_cannot_be_a_label_is_reported_once() {
     let text = "VAR_GLOBAL\n    H10 : INT;\nEND_VAR\nPROGRAM P\nVAR\n    K5 : INT;\n    X0 : BOOL;\nEND_VAR\n\
          K5 := 3;\nH10 := K5;\nX0 := TRUE;\nEND_PROGRAM\n";
-    insta::assert_snapshot!(compiled(text, ModelId::Fx3u).1.lines().filter(|line| line.contains(" E")).collect::<Vec<_>>().join("\n"), @r"
+    let found = compiled(text, ModelId::Fx3u).1;
+    let errors = found.lines().filter(|line| line.contains(" E"));
+    insta::assert_snapshot!(errors.collect::<Vec<_>>().join("\n"), @r"
     2:5 E0208 `H10` is the name of a device or constant
     6:5 E0208 `K5` is the name of a device or constant
     7:5 E0208 `X0` is the name of a device or constant

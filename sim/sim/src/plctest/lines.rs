@@ -25,8 +25,8 @@ pub(super) struct Lines {
     part: BTreeMap<SerialPort, Vec<u8>>,
 }
 
-/// Returns true if a character has come by a time. Both are counted in 32 bits, which takes 71 minutes, and are less than
-/// half of that apart.
+/// Returns true if a character has come by a time. Both are counted in 32 bits, which takes 71 minutes, and are less
+/// than half of that apart.
 fn is_due(character: &Received, now_us: u32) -> bool {
     now_us.wrapping_sub(character.at_us) as i32 >= 0
 }

@@ -300,7 +300,8 @@ impl Reader<'_> {
         let what = match self.peek() {
             Some(Token::Word(word)) => match Constant::parse(word) {
                 Some(_) if self.is_name_too(word) => Err(format!(
-                    "`{word}` is a number, and the name of a device: write `\"{word}\"` for the device, the number without a letter"
+                    "`{word}` is a number, and the name of a device: write `\"{word}\"` for the device, or the number \
+                     without a letter"
                 )),
                 Some(constant) => Ok(What::Constant(constant.map_err(|why| error(at, why))?)),
                 None => self.device(word),
