@@ -3,7 +3,7 @@
 use crate::answer::{Link, Place};
 use crate::graph::{Fact, FactKind, Graph, Id, Node};
 use rungc_analysis::resolve::Resolved;
-use rungc_catalogue::Lower;
+use rungc_catalogue::{Basic, Lower};
 use rungc_ladder::Ladder;
 use rungc_syntax::{Device, OperandKind, Phrase, phrase};
 
@@ -109,6 +109,15 @@ impl Words<'_> {
         Some(format!("{a} {} {b}", op.symbol()))
     }
 
+    /// Returns true for a normally closed contact.
+    fn is_inverted(&self, instr: Option<usize>) -> bool {
+        let lower = instr.and_then(|instr| self.resolved.instrs[instr].lower);
+        matches!(
+            lower,
+            Some(Lower::Basic(Basic::Ldi | Basic::Ani | Basic::Ori))
+        )
+    }
+
     /// A bit that is not followed further, in words, and as its opposite.
     fn fact(&self, fact: &Fact) -> [Phrase; 2] {
         let source = || match fact.instr {
@@ -119,6 +128,11 @@ impl Words<'_> {
         let operand = fact.instr.and_then(|instr| self.operand(instr, 0));
         let plain = || operand.map_or_else(source, |operand| operand.to_string().into());
         match (fact.kind, named) {
+            // What is constant is the contact, not its relay: LDI M8000.
+            (FactKind::Constant, _) if self.is_inverted(fact.instr) => {
+                let [text, inverse] = with_opposite(plain());
+                [inverse, text]
+            }
             (FactKind::Constant | FactKind::WordBit | FactKind::Indexed, _) => {
                 with_opposite(plain())
             }
@@ -169,16 +183,12 @@ impl Words<'_> {
             },
             Node::And(a, b) => match (graph.node(*a), graph.node(*b)) {
                 (_, Node::Not(m)) if matches!(graph.node(*m), Node::Memory(..)) => {
-                    phrase!(
-                        "{condition} coming on",
-                        condition = self.within(graph, *a, Around::Not)
-                    )
+                    let condition = self.within(graph, *a, Around::Not);
+                    group(phrase!("{condition} coming on", condition), Around::And)
                 }
                 (Node::Not(a), Node::Memory(..)) => {
-                    phrase!(
-                        "{condition} going off",
-                        condition = self.within(graph, *a, Around::Not)
-                    )
+                    let condition = self.within(graph, *a, Around::Not);
+                    group(phrase!("{condition} going off", condition), Around::And)
                 }
                 _ => {
                     let [a, b] = [a, b].map(|part| self.within(graph, *part, Around::And));
