@@ -43,7 +43,7 @@ run_ms = 200
 expect_tx = { COM1 = "01 03 02 00 07 F9 86" }
 "#
     );
-    insta::assert_snapshot!(outcomes(&text), @"t.plctest.toml:4: slave [interp]: passed");
+    insta::assert_snapshot!(outcomes(&text), @"t.plctest.toml:5: slave [interp]: passed");
 }
 
 #[test]

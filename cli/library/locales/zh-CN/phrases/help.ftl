@@ -208,6 +208,9 @@ t-convert-a-program-to-an-instruction-list-list-90e3cac5 = 把程序转换为指
 # Count steps, instructions and devices, and estimate the scan time of the real PLC
 t-count-steps-instructions-and-devices-and-estimate-the-c646d887 = 统计步数、指令和软元件，并估算实际 PLC 的扫描时间
 
+# Debug a program in an editor over the Debug Adapter Protocol
+t-debug-a-program-in-an-editor-over-the-bc2a9845 = 通过调试适配器协议（DAP）在编辑器中调试程序
+
 # Declarations of all labels of a GX Works2 project, with the devices that the compiler chose
 t-declarations-of-all-labels-of-a-gx-works2-381351aa = GX Works2 项目中全部标号的声明，带编译器所选的软元件
 
@@ -891,6 +894,9 @@ t-the-program-43c317a0 = 程序
 
 # The program of the project; both files are written to its folder. Default: the only program in this folder
 t-the-program-of-the-project-both-files-are-d98874a9 = 项目的程序；两个文件都写入其文件夹。默认：此文件夹中唯一的程序
+
+# The program runs in virtual time; the editor stops it at instructions, device changes and errors, and goes back in time. Editors start this command (`rungc book debugging`) and talk to it on standard input and output. Exit codes: 0: disconnected by the editor; 1: the connection ended without that
+t-the-program-runs-in-virtual-time-the-editor-db67c136 = 程序以虚拟时间运行；编辑器可使其停在指令、软元件变化和错误处，并可倒回。编辑器启动此命令（`rungc book debugging`），并通过标准输入和输出与其通信。退出码：0：由编辑器断开；1：连接未经断开而结束
 
 # The reference interpreter
 t-the-reference-interpreter-b0612f2f = 参考解释器
