@@ -11,6 +11,7 @@ use rungc_project::Project;
 use rungc_project::serve::{FxEnd, Line, LineEnd};
 use rungc_sim::property;
 use rungc_sim::protocol::Answer;
+use std::io::{Cursor, sink};
 use std::path::Path;
 
 fn fleet(text: &str) {
@@ -83,6 +84,15 @@ fn recording(text: &str) {
         assert!(first <= last);
         let _ = (trace.at(first), trace.at(last), trace.at(u64::MAX));
     }
+}
+
+/// Messages of an editor to the debug adapter, one a line.
+fn debugging(text: &str) {
+    let mut messages = Vec::new();
+    for line in text.lines() {
+        messages.extend(format!("Content-Length: {}\r\n\r\n{line}", line.len()).into_bytes());
+    }
+    let _ = rungc_dap::serve(Cursor::new(messages), sink());
 }
 
 fn names(text: &str) {
@@ -169,6 +179,19 @@ pub(super) fn targets() -> [Target; 8] {
             &[
                 "ms,device,value\n0,X000,1\n0,T0 contact,0\n0,T0,12\n500,D0.i32,-70000\n500,D4.f32,1.5\n900,K2M20,5\n",
                 "ms,device,value\r\n0,D10.str,\"\"\"AB\"\"\"\r\n0,C235,-7\r\n1000,M8000,1\r\n",
+            ],
+        ),
+        target(
+            "debugging",
+            debugging,
+            &[
+                r#"{"seq":1,"type":"request","command":"initialize","arguments":{"adapterID":"rungc"}}
+{"seq":2,"type":"request","command":"setBreakpoints","arguments":{"source":{"path":"a.il"},"breakpoints":[{"line":2,"condition":"X0"}]}}
+{"seq":3,"type":"request","command":"launch","arguments":{"program":"no such program.il","scan":10}}
+{"seq":4,"type":"request","command":"disconnect"}"#,
+                r#"{"seq":1,"type":"request","command":"threads"}
+{"seq":"2","type":"request","command":3,"arguments":[]}
+{"seq":2,"type":"event","event":"stopped"}"#,
             ],
         ),
         target(

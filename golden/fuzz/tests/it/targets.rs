@@ -104,7 +104,8 @@ const NO_READERS: [&str; 7] = [
 
 /// Readers and decoders, each with a target that calls it.
 #[rustfmt::skip]
-const READERS: [(&str, &str); 49] = [
+const READERS: [(&str, &str); 50] = [
+    ("cli/dap/src/protocol.rs read", "debugging"),
     ("cli/library/src/trace.rs read", "recording"),
     ("firmware/src/board.rs parse", "board"),
     ("firmware/src/flash.rs read", "flash-file"),
