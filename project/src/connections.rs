@@ -28,6 +28,17 @@ fn run(of: rungc_rt::Class, first: u32, count: u32) -> DeviceRun {
     }
 }
 
+/// Help where a device cannot take a value.
+const ANOTHER_DEVICE: &str = "choose a device that nothing else writes, such as `M100`";
+
+/// The first of some devices that each scan sets, so that a value from elsewhere is lost.
+fn set_by_scan(devices: &DeviceRun, model: &Model) -> Option<String> {
+    let mut numbers = devices.first..devices.first + devices.count;
+    let set = numbers.find(|&number| model.is_set_by_scan(devices.class, number))?;
+    let device = devices.class.number(set);
+    Some(format!("the PLC itself sets {device} in each scan"))
+}
+
 impl Project {
     /// Connections of `[io]`, with paths as seen from the caller's folder.
     pub fn connections(&self) -> Vec<Connection> {
@@ -87,7 +98,8 @@ impl Project {
         written
     }
 
-    /// A device of `[io]` that the model does not have is a mistake.
+    /// A device of `[io]` that the model does not have is a mistake, and so is one that takes its value from `[io]` or
+    /// `[retain]` although each scan gives it another: M8000.
     ///
     /// # Errors
     /// The first one.
@@ -100,20 +112,34 @@ impl Project {
         } in &self.io
         {
             let ranges = connection.rows.iter().zip(rows);
-            let ranges = ranges.map(|(row, span)| (row.class, row.first, row.count, span));
+            let ranges =
+                ranges.map(|(row, span)| (run(row.class, row.first, row.count), row.reads, span));
             let faults = connection.fault.iter();
-            let faults = faults.map(|&(class, number)| (class, number, 1, fault));
-            for (of, first, count, &span) in ranges.chain(faults) {
-                let of = name_class(of);
-                let mut numbers = first..first + count;
+            let faults = faults.map(|&(class, number)| (run(class, number, 1), true, fault));
+            for (devices, is_set, &span) in ranges.chain(faults) {
+                let of = devices.class;
+                let mut numbers = devices.first..devices.first + devices.count;
                 if let Some(missing) = numbers.find(|&number| !model.has(of, number)) {
                     let device = of.number(missing);
                     let message = format!("{device} does not exist on {}", model.title);
                     return Err(self.error(codes::IO_CONNECTION.at(span, message)));
                 }
+                if let Some(why) = set_by_scan(&devices, model).filter(|_| is_set) {
+                    let error = codes::IO_CONNECTION.at(span, why);
+                    return Err(self.error(error.help(ANOTHER_DEVICE)));
+                }
             }
         }
-        let mut faults = self.retain_fault.iter();
-        faults.try_for_each(|fault| self.exists(fault, model))
+        let Some(fault) = &self.retain_fault else {
+            return Ok(());
+        };
+        self.exists(fault, model)?;
+        match set_by_scan(&fault.run(), model) {
+            Some(why) => {
+                let error = codes::PROJECT_VALUE.at(fault.span, why);
+                Err(self.error(error.help(ANOTHER_DEVICE)))
+            }
+            None => Ok(()),
+        }
     }
 }

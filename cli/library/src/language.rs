@@ -2,12 +2,13 @@
 //!
 //! A language has a folder in `locales/`, with files in the format of [Project Fluent](https://projectfluent.org). A
 //! message in `codes/` has the identifier of a diagnostic code: its value is the title, and its attribute `text` the
-//! explanation. `phrases/` has what diagnostics say, and `report.ftl` what surrounds them. Above each translation, a
-//! comment repeats the English text that it is made from, so that a test finds those that no longer fit.
+//! explanation. `phrases/` has what diagnostics, `--help` and `rungc why` say, and `report.ftl` what surrounds them.
+//! Above each translation, a comment repeats the English text that it is made from, so that a test finds those that no
+//! longer fit.
 
 use fluent_bundle::concurrent::FluentBundle;
 use fluent_bundle::{FluentArgs, FluentResource, FluentValue};
-pub use phrases::{identifier, phrase};
+pub use phrases::{identifier, phrase, sentence};
 pub use rungc_project::Language;
 use rungc_syntax::codes::Code;
 use rungc_syntax::diag::grouped;
@@ -28,7 +29,7 @@ macro_rules! codes_of {
 /// The files of a language that hold what diagnostics say.
 macro_rules! phrases_of {
     ($folder:literal) => {
-        phrases_of!($folder: "checks" "lowering" "operands" "project" "reading" "structured")
+        phrases_of!($folder: "checks" "help" "lowering" "operands" "project" "reading" "structured" "why")
     };
     ($folder:literal: $($file:literal)*) => {
         [$(include_str!(concat!("../locales/", $folder, "/phrases/", $file, ".ftl"))),*]
@@ -44,7 +45,7 @@ const CHINESE: [&str; 2] = [
     include_str!("../locales/zh-CN/document.ftl"),
 ];
 const CHINESE_CODES: [&str; 16] = codes_of!("zh-CN");
-const CHINESE_PHRASES: [&str; 6] = phrases_of!("zh-CN");
+const CHINESE_PHRASES: [&str; 8] = phrases_of!("zh-CN");
 
 type Bundle = FluentBundle<FluentResource>;
 

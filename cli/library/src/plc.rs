@@ -264,12 +264,19 @@ impl<'p> Plc<'p> {
         (&self.source, &mut self.session)
     }
 
-    fn target(&self, name: &str) -> Result<Target, Error> {
+    /// The device of a name, as the methods above read it.
+    ///
+    /// # Errors
+    /// A name that no device has.
+    pub fn target(&self, name: &str) -> Result<Target, Error> {
         self.source.names.target(name).map_err(Error::Device)
     }
 
     /// A device, and a value that it keeps until the program reads it.
-    fn settable(&self, name: &str, value: Value) -> Result<(Target, f64), Error> {
+    ///
+    /// # Errors
+    /// A name that no device has, a value that does not fit, a device that each scan sets.
+    pub fn settable(&self, name: &str, value: Value) -> Result<(Target, f64), Error> {
         let (target, value) = (self.target(name)?, value.number()?);
         crate::names::fits(target, value).map_err(Error::Device)?;
         let machine = self.session.machine();

@@ -1,11 +1,13 @@
 //! A compiled program.
 
 use crate::why::Source;
-use crate::{Names, Plc, Project};
+use crate::{Error, Names, Plc, Project};
 use rungc_emit::OutFile;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, Compiled as Result, compile};
 use rungc_lower::marks::Marks;
+use rungc_sim::property::Condition;
+use rungc_verify::request::Reader;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
@@ -65,6 +67,30 @@ impl Program {
         let parameters = project.source().parameters.as_ref();
         let modules = parameters.map_or(&[][..], |parameters| &parameters.modules);
         Plc::new(self.source(), *id, modules)
+    }
+
+    /// Sources of the parts that [`start`](Self::start) executes, for the crates below this one.
+    pub fn marks(&self) -> &Marks {
+        self.source().marks
+    }
+
+    /// Reads a condition over devices, named as in properties: `Y000 & D0 > 100`.
+    ///
+    /// # Errors
+    /// A mistake in it.
+    pub fn condition(&self, text: &str) -> std::result::Result<Condition, Error> {
+        let options = self.0.project.options();
+        let reader = Reader {
+            program: self.0.project.source(),
+            options: &options,
+        };
+        let condition = reader.condition(text);
+        condition.map_err(|error| Error::Question(error.why))
+    }
+
+    /// The project that it was compiled from.
+    pub fn project(&self) -> &Project {
+        &self.0.project
     }
 
     /// The program as it was read, and as it runs.

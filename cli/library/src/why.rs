@@ -1,5 +1,6 @@
 //! Reasons for a device to be on or off.
 
+use crate::language::{Language, phrase};
 use crate::settings::is_written_outside;
 use crate::{Error, Names, Plc, Program};
 use rungc_ir::Module;
@@ -27,6 +28,11 @@ pub fn device(
         return Err(format!("no instruction names `{device}`"));
     }
     Ok(device)
+}
+
+/// An answer as text in a language.
+pub fn text(why: &Why, language: Language) -> String {
+    why.text_in(&|said| phrase(language, said))
 }
 
 /// A program as it was read, and as it runs.

@@ -2,6 +2,7 @@
 
 mod boards;
 mod book;
+mod dap;
 mod diff;
 mod effects;
 mod emit;
@@ -24,6 +25,7 @@ mod why;
 
 pub use boards::BoardsArgs;
 pub use book::{BookArgs, ExplainArgs, ManArgs};
+pub use dap::DapArgs;
 pub use diff::{DiffArgs, DiffFormat};
 pub use effects::{idle, long_option};
 pub use emit::{Backend, Emit};
@@ -159,6 +161,12 @@ pub enum Command {
     Stats(StatsArgs),
     /// Format instruction lists, preserving comments.
     Fmt(FmtArgs),
+    /// Put another device in the place of one, or give devices labels.
+    ///
+    /// In an instruction list, the device is replaced in all operands and in its comment, or, with the reason, not at
+    /// all. A name that is not a device becomes its label in rungc.toml, for programs of any format. Exit codes: 0:
+    /// renamed; 1: a program with errors; 2: incorrect usage, or a name that the device cannot have.
+    Rename(RenameArgs),
     /// Compare two programs network by network, or by behaviour.
     ///
     /// Exit codes: 0: no difference; 1: a difference; 2: incorrect usage, or a program that cannot be read whole.
@@ -183,6 +191,12 @@ pub enum Command {
     /// (`rungc book editors`) and talk to it on standard input and output. Exit codes: 0: shut
     /// down by the editor; 1: the connection ended without that.
     Lsp(LspArgs),
+    /// Debug a program in an editor over the Debug Adapter Protocol.
+    ///
+    /// The program runs in virtual time; the editor stops it at instructions, device changes and errors, and goes back
+    /// in time. Editors start this command (`rungc book debugging`) and talk to it on standard input and output. Exit
+    /// codes: 0: disconnected by the editor; 1: the connection ended without that.
+    Dap(DapArgs),
     /// Serve an assistant over the Model Context Protocol.
     ///
     /// Offers tools that read, check, run, test and prove programs, pages of the book, and prompts. Assistants start
@@ -524,6 +538,48 @@ pub struct FmtArgs {
     /// Change nothing: list the lines that are not formatted, and fail (exit code 1) if there are any.
     #[arg(long)]
     pub check: bool,
+}
+
+/// Arguments of `rename`.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  rungc rename press.il M0 M100            M100 in place of M0, in all instructions and in its comment
+  rungc rename press.il M0 M100 --dry-run  the lines that would change
+  rungc rename press.gxw M0 Press.Ready    a label in rungc.toml: a name for reports, tests and emitted code
+  rungc rename press.gxw --comments        labels for all devices with a comment")]
+pub struct RenameArgs {
+    /// The program.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Device, or its comment.
+    #[arg(
+        value_name = "DEVICE",
+        required_unless_present = "comments",
+        requires = "name"
+    )]
+    pub device: Option<String>,
+    /// New device, or a label.
+    #[arg(value_name = "NAME")]
+    pub name: Option<String>,
+    /// Give each device with a comment a label that is its comment.
+    #[arg(long, conflicts_with_all = ["device", "name"])]
+    pub comments: bool,
+    /// Change nothing: list the lines that would change.
+    #[arg(long)]
+    pub dry_run: bool,
+    #[command(flatten)]
+    pub reading: Reading,
+}
+
+impl RenameArgs {
+    /// The program.
+    pub fn input(&self) -> Input {
+        Input {
+            file: Some(self.file.clone()),
+            reading: self.reading.clone(),
+        }
+    }
 }
 
 /// Arguments of `learn`.

@@ -6,6 +6,7 @@
 mod args;
 mod commands;
 mod crash;
+mod help;
 mod language;
 mod output;
 mod progress;
@@ -17,6 +18,7 @@ use args::{Cli, ColorWhen, Command, Emit};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches};
 use commands::{Context, Failure, Outcome, Verbosity, interruption};
+use help::Help;
 use output::OutputPath;
 use rungc_sim::threads::Threads;
 use std::ffi::OsString;
@@ -33,7 +35,10 @@ pub fn main() -> ExitCode {
         return ExitCode::from(2);
     }
     let matches = Cli::command().color(usage_color()).try_get_matches();
-    let matches = matches.unwrap_or_else(|error| reject(&advised(error)));
+    let matches = matches.unwrap_or_else(|error| match Help::of(&error, usage_color()) {
+        Some(help) => help.print(),
+        None => reject(&advised(error)),
+    });
     let cli = Cli::from_arg_matches(&matches)
         .unwrap_or_else(|error| reject(&error.format(&mut Cli::command())));
     let threads = Threads::stated().map(drop).map_err(Failure::from);
@@ -55,11 +60,13 @@ pub fn main() -> ExitCode {
         Command::Boards(args) => commands::boards::run(args, cx),
         Command::Flash(args) => commands::flash::run(args, cx),
         Command::Lsp(_) => commands::lsp::run(),
+        Command::Dap(_) => commands::dap::run(),
         Command::Mcp(args) => commands::mcp::run(args),
         Command::Guide => commands::mcp::guide(),
         Command::Init(args) => commands::init::run(args, cx),
         Command::Demo(args) => commands::demo::run(args, cx),
         Command::Doctor(args) => commands::doctor::run(args, cx),
+        Command::Rename(args) => commands::rename::run(args, cx),
         Command::Learn(args) => commands::learn::run(args, cx),
         Command::Verify(args) => commands::verify::run(args, cx),
         Command::Explore(args) => commands::explore::run(args, cx),
@@ -119,6 +126,7 @@ fn context(cli: &Cli, language: language::Chosen) -> Context {
             | Command::Stats(_)
             | Command::Diff(_)
             | Command::Lsp(_)
+            | Command::Dap(_)
             | Command::Mcp(_)
             | Command::Verify(_) => true,
             Command::Xref(args) => is_printed(&args.output),
@@ -288,20 +296,23 @@ fn color(when: ColorWhen) -> bool {
 
 /// Use of colours in help and in errors of usage, which end the process before its arguments are known.
 fn usage_color() -> clap::ColorChoice {
-    let arguments: Vec<OsString> = std::env::args_os()
-        .take_while(|argument| argument != "--")
-        .collect();
-    let value = arguments.iter().enumerate().find_map(|(n, argument)| {
-        let argument = argument.to_string_lossy();
-        match argument.strip_prefix("--color") {
-            Some("") => Some(arguments.get(n + 1)?.to_string_lossy().into_owned()),
-            Some(value) => Some(value.strip_prefix('=')?.to_owned()),
-            None => None,
-        }
-    });
-    match value.as_deref() {
+    match early_option("--color").as_deref() {
         Some("always") => clap::ColorChoice::Always,
         Some("never") => clap::ColorChoice::Never,
         _ => clap::ColorChoice::Auto,
     }
+}
+
+/// Value of an option before the arguments are known.
+fn early_option(name: &str) -> Option<String> {
+    let arguments: Vec<OsString> = std::env::args_os()
+        .take_while(|argument| argument != "--")
+        .collect();
+    arguments.iter().enumerate().find_map(|(n, argument)| {
+        let argument = argument.to_string_lossy();
+        match argument.strip_prefix(name)? {
+            "" => Some(arguments.get(n + 1)?.to_string_lossy().into_owned()),
+            value => Some(value.strip_prefix('=')?.to_owned()),
+        }
+    })
 }

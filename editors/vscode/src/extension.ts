@@ -1,6 +1,7 @@
 // Entry point of the extension: what it starts, and its commands.
 
 import * as vscode from "vscode";
+import { Debug } from "./debug";
 import { Preview } from "./preview";
 import { Projects } from "./project";
 import { executable } from "./rungc";
@@ -18,6 +19,7 @@ export function activate(context: vscode.ExtensionContext): void {
     preview,
     new Tests(),
     new Projects(),
+    new Debug(),
     command("preview", () => preview.show(vscode.window.activeTextEditor)),
     command("restart", () => server.restart()),
     command("showOutput", () => server.showOutput()),

@@ -7,6 +7,7 @@ use crate::{Device, DeviceRun, Index, Instr, Number, OperandKind};
 use std::borrow::Cow;
 use std::fmt;
 use std::ops::Deref;
+use std::sync::Arc;
 
 /// A text in English, with the sentence and the arguments that it is made of.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -21,8 +22,8 @@ pub struct Phrase {
 pub enum Argument {
     /// The same in all languages: a device, a number, an instruction, a name.
     Same(String),
-    /// A text that is said in each language.
-    Phrase(Phrase),
+    /// A text that is said in each language. Sentences of many parts share them.
+    Phrase(Arc<Phrase>),
 }
 
 impl Argument {
@@ -217,7 +218,7 @@ pub trait Say {
 
 impl Say for Phrase {
     fn said(&self) -> Argument {
-        Argument::Phrase(self.clone())
+        Argument::Phrase(Arc::new(self.clone()))
     }
 }
 
@@ -242,6 +243,13 @@ same_in_all_languages!(
     char u8 u16 u32 u64 usize i16 i32 i64
     Device DeviceRun Index Instr Number OperandKind
 );
+
+/// As a text in English: data is the same in all languages.
+impl serde::Serialize for Phrase {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.as_str())
+    }
+}
 
 impl Default for Phrase {
     /// An empty text.

@@ -19,7 +19,13 @@ const MACOS: &str = "aarch64-apple-darwin";
 const WASM: &str = "wasm32-unknown-unknown";
 
 /// Crates that need the sockets and files of an operating system, and with them all that are built on one of them.
-const HOSTED: [&str; 4] = ["rungc-io", "rungc-live", "rungc-lsp", "rungc-mcp"];
+const HOSTED: [&str; 5] = [
+    "rungc-dap",
+    "rungc-io",
+    "rungc-live",
+    "rungc-lsp",
+    "rungc-mcp",
+];
 
 /// Checks all targets whose standard library is installed or can be.
 pub fn run(args: &Args) -> Result<(), Problem> {

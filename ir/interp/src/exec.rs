@@ -58,6 +58,7 @@ impl<'m> Machine<'m> {
     fn run_observed(&mut self, body: &'m [Stmt], hal: &mut dyn Hal) -> Flow {
         for stmt in body {
             if let Some(mut observer) = self.observer.take() {
+                observer.intervene(self, stmt);
                 observer.before(self, stmt);
                 self.observer = Some(observer);
             }

@@ -109,6 +109,11 @@ pub struct Machine<'m> {
 
 /// Looks on while a program is executed.
 pub trait Observer: Send {
+    /// Changes devices before a statement is executed, and before [`before`](Self::before) sees it. By default, none.
+    fn intervene(&mut self, machine: &mut Machine, stmt: &Stmt) {
+        let _ = (machine, stmt);
+    }
+
     /// A statement is about to be executed.
     fn before(&mut self, machine: &Machine, stmt: &Stmt);
 }

@@ -12,6 +12,12 @@ use rungc_syntax::{DeviceClass, Operand, OperandKind, Span, codes, phrase};
 impl Compiler<'_> {
     /// A label or device that can be written.
     pub(crate) fn target<'e>(&self, target: &'e Expr) -> Made<Place<'e>> {
+        if target
+            .name()
+            .is_some_and(|name| self.labels.is_rejected(name))
+        {
+            return Err(Vec::new());
+        }
         let Some(place) = self.place(target)? else {
             let what = match target.kind {
                 ExprKind::Call(..) => "a call cannot be assigned to",

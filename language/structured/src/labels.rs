@@ -75,6 +75,8 @@ pub(crate) struct Label {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Labels {
     by_name: BTreeMap<String, Label>,
+    /// Names in upper case that cannot be those of labels.
+    rejected: Vec<String>,
     /// Labels that are global to these.
     pub global: Option<Rc<Labels>>,
 }
@@ -258,6 +260,20 @@ impl Labels {
         self.by_name.insert(label.name.to_uppercase(), label);
     }
 
+    /// Notes a name that cannot be that of a label, and has been reported.
+    fn reject(&mut self, name: &Name) {
+        if !self.by_name.contains_key(&name.text.to_uppercase()) {
+            self.rejected.push(name.text.to_uppercase());
+        }
+    }
+
+    /// Returns true for the name of a label that has been reported: its uses are not.
+    pub(crate) fn is_rejected(&self, name: &str) -> bool {
+        let upper = name.to_uppercase();
+        let global = self.global.as_ref();
+        self.rejected.contains(&upper) || global.is_some_and(|global| global.is_rejected(name))
+    }
+
     /// All labels, in the order of their names.
     pub(crate) fn all(&self) -> impl Iterator<Item = &Label> {
         self.by_name.values()
@@ -319,6 +335,7 @@ impl Labels {
         for name in &variable.names {
             if let Some(error) = self.clash(name, role) {
                 cx.found.push(error);
+                self.reject(name);
                 continue;
             }
             let mut label = Label::new(name, of.clone().unwrap_or(Type::Plain(Ty::Raw16)), role);

@@ -167,9 +167,9 @@ impl Say for Type {
     fn said(&self) -> Argument {
         match self {
             Type::Plain(ty) => ty.said(),
-            Type::Array(_) => Argument::Phrase(phrase!("a whole array")),
+            Type::Array(_) => phrase!("a whole array").said(),
             Type::Structure(structure) => {
-                Argument::Phrase(phrase!("a structure `{name}`", name = structure.name))
+                phrase!("a structure `{name}`", name = structure.name).said()
             }
         }
     }

@@ -224,7 +224,7 @@ impl Compiler<'_> {
     }
 
     /// Reports an instruction that the model does not have.
-    fn need(&self, name: &str, span: Span) -> Made<()> {
+    pub(crate) fn need(&self, name: &str, span: Span) -> Made<()> {
         let found = rungc_catalogue::find(name);
         if found.is_some_and(|found| found.inst.models.has(self.model.id)) {
             return Ok(());

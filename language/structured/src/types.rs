@@ -170,7 +170,7 @@ impl Ty {
 
 impl Say for Ty {
     fn said(&self) -> Argument {
-        Argument::Phrase(match self {
+        let name = match self {
             Ty::Text(length) => phrase!("a STRING({length})", length),
             Ty::Bool => phrase!("a BOOL"),
             Ty::Int => phrase!("an INT"),
@@ -185,6 +185,7 @@ impl Say for Ty {
             Ty::Raw32 => phrase!("a group of 32 bits"),
             Ty::Integer => phrase!("a whole number"),
             Ty::Fraction => phrase!("a number with a fraction"),
-        })
+        };
+        name.said()
     }
 }

@@ -169,6 +169,10 @@ impl Compiler<'_> {
         self.expect(expr, ty)?;
         let span = expr.span;
         if let Some(literal) = self.constant(expr)? {
+            if ty == Ty::Real {
+                // Models without it take no constants of floats elsewhere either.
+                self.need("DEMOV", span)?;
+            }
             let value = value_in(literal, ty, span).map_err(|error| vec![*error])?;
             let kind = match value {
                 Const::Int(value) if ty != Ty::Real && fold::is_hexadecimal(&self.labels, expr) => {

@@ -41,6 +41,45 @@ X007-X010 = "read b"
     assert_eq!(project.source.slice(why.span), "X777");
 }
 
+/// A value from elsewhere that each scan replaces is never seen. What the program may write, a connection may, too:
+/// M8034 turns the outputs off while an end is lost. Devices that a row writes elsewhere are only read.
+#[test]
+fn what_each_scan_sets_takes_no_value_from_elsewhere() {
+    let model = Model::get(ModelId::Fx3u);
+    let panel = "[io.panel]\nfiles = '.'\n";
+    let row = "X000 = 'read a'\n";
+    for (text, device, place) in [
+        (format!("{panel}{row}fault = 'M8000'\n"), "M8000", "'M8000'"),
+        (
+            format!("{panel}M8010-M8013 = 'read a'\n"),
+            "M8011",
+            "M8010-M8013",
+        ),
+        (format!("{panel}D8010 = 'read a'\n"), "D8010", "D8010"),
+        (
+            "[retain]\nfile = 'r'\nfault = 'M8002'\n".to_string(),
+            "M8002",
+            "'M8002'",
+        ),
+    ] {
+        let project = parse(&text).unwrap();
+        let Err(Error::Invalid { diagnostics, .. }) = project.check_io(model) else {
+            panic!("{text}");
+        };
+        let why = &diagnostics.sorted()[0];
+        let expected = format!("the PLC itself sets {device} in each scan");
+        assert_eq!(why.message, expected, "{text}");
+        assert_eq!(project.source.slice(why.span), place, "{text}");
+    }
+    for text in [
+        format!("{panel}{row}fault = 'M8034'\n"),
+        format!("{panel}M8013 = 'write a'\n"),
+        "[retain]\nfile = 'r'\nfault = 'Y000'\n".to_string(),
+    ] {
+        assert!(parse(&text).unwrap().check_io(model).is_ok(), "{text}");
+    }
+}
+
 /// The device that shows that latched devices cannot be saved takes its value from there alone, wherever `[retain]`
 /// stands in the file.
 #[test]

@@ -1,5 +1,6 @@
 //! Answers as data. Field names are stable.
 
+use rungc_syntax::Phrase;
 use serde::Serialize;
 
 /// Answer to "why is this device on, or off?".
@@ -16,7 +17,7 @@ pub struct Why {
     /// Instructions that write the device, in the order of the program.
     pub writers: Vec<Writer>,
     /// Facts about the device, as sentences: `Y000 has 2 coils: the last one that is executed decides`.
-    pub notes: Vec<String>,
+    pub notes: Vec<Phrase>,
     /// Causes at the moment: that of the device first, then those of the devices that it depends on.
     pub causes: Vec<Cause>,
     /// Devices at which the causes end: what keeps the device as it is, in the first of the smallest sets, or in all of
@@ -38,7 +39,7 @@ pub struct How {
     pub found: bool,
     /// Reason why no way was searched for.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub not_searched: Option<&'static str>,
+    pub not_searched: Option<Phrase>,
     /// Longest time that was waited in a row, in milliseconds.
     pub longest_wait_ms: u64,
     /// What to do, in this order; the device changes with the last of them. None of them can be left out.
@@ -65,14 +66,14 @@ pub struct Action {
     pub comment: Option<String>,
     /// Its new value: `on`, `off`, `12`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub value: Option<String>,
+    pub value: Option<Phrase>,
     /// Number of times that it is switched on and off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub times: Option<u32>,
     /// Milliseconds until the next action, or until the device changes.
     pub takes_ms: u64,
     /// Devices that change meanwhile: `M0 "automatic" comes on`.
-    pub then: Vec<String>,
+    pub then: Vec<Phrase>,
 }
 
 /// A moment of a run.
@@ -82,10 +83,10 @@ pub struct Moment {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ms: Option<u64>,
     /// Value of the device: `on`, `off`, `12`.
-    pub value: String,
+    pub value: Phrase,
     /// Value after the next scan, if that changes it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub next: Option<String>,
+    pub next: Option<Phrase>,
     /// False in STOP, where no instruction is executed.
     pub running: bool,
 }
@@ -110,12 +111,12 @@ pub struct Writer {
     /// Effect: `coil`, `set`, `reset`, `write`, `change`.
     pub effect: &'static str,
     /// Condition of its drive: `X000 "start" and not X001`; `always` if it hangs on the rail.
-    pub condition: String,
+    pub condition: Phrase,
     /// Condition of its being executed, if it is not in every scan.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub executed_if: Option<String>,
+    pub executed_if: Option<Phrase>,
     /// Facts that may be unexpected, as sentences.
-    pub notes: Vec<String>,
+    pub notes: Vec<Phrase>,
     /// At a moment: whether the next scan executes it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub executed: Option<bool>,
@@ -176,7 +177,7 @@ pub struct Cause {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub since: Option<Since>,
     /// Other facts, as sentences.
-    pub notes: Vec<String>,
+    pub notes: Vec<Phrase>,
 }
 
 /// Progress of a timer or counter.
@@ -202,9 +203,9 @@ pub struct Link {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub comment: Option<String>,
     /// State now, as a sentence: `X001 is off`.
-    pub now: String,
+    pub now: Phrase,
     /// State that is needed: `X001 on`.
-    pub needed: String,
+    pub needed: Phrase,
     /// The contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<Place>,
@@ -220,5 +221,5 @@ pub struct Since {
     /// Number of the scan, from 1.
     pub scan: u64,
     /// Changes in the same scan of devices that it depends on: `X001 went off`.
-    pub with: Vec<String>,
+    pub with: Vec<Phrase>,
 }

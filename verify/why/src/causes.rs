@@ -6,12 +6,13 @@ use crate::graph::{FactKind, Id, Node};
 use crate::history::History;
 use crate::sets::{Atom, Sets, View};
 use crate::trace::Trace;
+use crate::words::is;
 use rungc_catalogue::Basic;
 use rungc_ir::node::EdgeId;
 use rungc_models::runs::is_special;
 use rungc_sim::record::Reading;
 use rungc_sim::{Session, Target};
-use rungc_syntax::{Device, DeviceClass, OperandKind};
+use rungc_syntax::{Device, DeviceClass, OperandKind, Phrase, phrase};
 
 /// Number of devices whose causes are given at most.
 const MOST_CAUSES: usize = 40;
@@ -145,7 +146,7 @@ impl<'a> Search<'a> {
                     }
                     Atom::Memory(memory) => match self.before(*id, memory, above) {
                         Some((needed, members)) => {
-                            link.needed = format!("{needed} in the scan before");
+                            link.needed = phrase!("{needed} in the scan before", needed);
                             link.opaque = false;
                             next.extend(
                                 members.into_iter().map(|(device, id)| (device, id, first)),
@@ -179,8 +180,8 @@ impl<'a> Search<'a> {
         if above.contains(&device) {
             let name = self.explainer.words.named(device);
             let note = match (self.causes[at].on, self.now.trace.graph.value(id)) {
-                (true, true) => format!("It and {name} hold each other."),
-                _ => format!("{name} depends on it in turn."),
+                (true, true) => phrase!("It and {name} hold each other.", name),
+                _ => phrase!("{name} depends on it in turn.", name),
             };
             if !self.causes[at].notes.contains(&note) {
                 self.causes[at].notes.push(note);
@@ -205,7 +206,7 @@ impl<'a> Search<'a> {
         id: Id,
         memory: EdgeId,
         above: &[Device],
-    ) -> Option<(String, Vec<(Device, Id)>)> {
+    ) -> Option<(Phrase, Vec<(Device, Id)>)> {
         let trace = &self.now.trace;
         let after = *trace.edges.get(&memory)?;
         if after == id || trace.graph.value(after) != trace.graph.value(id) {
@@ -228,7 +229,10 @@ impl<'a> Search<'a> {
                 members.push((device, *id));
             }
         }
-        Some((texts.join(" and "), members))
+        let needed = texts
+            .into_iter()
+            .reduce(|a, b| phrase!("{a} and {b}", a, b))?;
+        Some((needed, members))
     }
 
     /// Says of a cause what in its condition cannot be followed.
@@ -239,16 +243,18 @@ impl<'a> Search<'a> {
                 && fact.kind == FactKind::Written
             {
                 let link = self.link(*id);
-                let note = format!("{}.", link.now);
+                let note = phrase!("{state}.", state = link.now);
                 if !self.causes[at].notes.contains(&note) {
                     self.causes[at].notes.push(note);
                 }
             }
         }
         if self.now.trace.jumped {
-            let note = "The program jumps backwards or leaves a routine early: what that passes over is not followed.";
+            let note = phrase!(
+                "The program jumps backwards or leaves a routine early: what that passes over is not followed."
+            );
             if self.causes.len() == 1 {
-                self.causes[at].notes.push(note.to_string());
+                self.causes[at].notes.push(note);
             }
         }
     }
@@ -260,7 +266,7 @@ impl<'a> Search<'a> {
     }
 
     /// Values of an instruction's operands: `D0 = 5`; of a timer or counter how far it is.
-    fn values(&self, instr: usize) -> String {
+    fn values(&self, instr: usize) -> Phrase {
         let resolved = &self.explainer.words.resolved;
         let operands = resolved.program.instrs[instr].operands.iter();
         let wide = resolved.instrs[instr].form.wide;
@@ -286,13 +292,12 @@ impl<'a> Search<'a> {
             };
             let is_indexed = self.explainer.words.index(instr).is_some();
             if let Some(reading) = self.now.session.reading(target).filter(|_| !is_indexed) {
-                texts.push(format!("{} is {reading}", operand.kind));
+                texts.push(is(&operand.kind.to_string(), reading.to_string().into()));
             }
         }
-        match texts.is_empty() {
-            true => "by other values".to_string(),
-            false => texts.join(", "),
-        }
+        let texts = texts.into_iter();
+        let all = texts.reduce(|before, next| phrase!("{before}, {next}", before, next));
+        all.unwrap_or_else(|| phrase!("by other values"))
     }
 
     /// The instruction that decided on a device's state, and how.
@@ -369,8 +374,11 @@ impl<'a> Search<'a> {
             let is_late = other.class != DeviceClass::X && changed.is_some_and(|at| at + 1 == scan);
             if other != device && (changed == Some(scan) || is_late) {
                 let on = state(self.now.session.machine(), other);
-                let verb = if on { "came on" } else { "went off" };
-                let text = format!("{} {verb}", self.explainer.words.named(other));
+                let name = self.explainer.words.named(other);
+                let text = match on {
+                    true => phrase!("{name} came on", name),
+                    false => phrase!("{name} went off", name),
+                };
                 if !with.contains(&text) {
                     with.push(text);
                 }
@@ -382,18 +390,26 @@ impl<'a> Search<'a> {
 
 impl Progress {
     /// `1.2 s of 3 s`, `3 of 5`.
-    pub fn text(&self) -> String {
+    pub fn text(&self) -> Phrase {
         let amount = |units: i64| match self.unit_ms {
             Some(unit) => format!("{} s", (units * i64::from(unit)) as f64 / 1000.0),
             None => units.to_string(),
         };
         match self.preset {
             Some(preset) if self.value < preset => {
-                let (of, left) = (amount(preset), amount(preset - self.value));
-                format!("{} of {of}, {left} to go", amount(self.value))
+                let (value, of, left) = (
+                    amount(self.value),
+                    amount(preset),
+                    amount(preset - self.value),
+                );
+                phrase!("{value} of {of}, {left} to go", value, of, left)
             }
-            Some(preset) => format!("{} of {}", amount(self.value), amount(preset)),
-            None => amount(self.value),
+            Some(preset) => phrase!(
+                "{value} of {of}",
+                value = amount(self.value),
+                of = amount(preset)
+            ),
+            None => amount(self.value).into(),
         }
     }
 }

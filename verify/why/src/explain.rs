@@ -6,7 +6,7 @@ use crate::graph::{Id, Node};
 use crate::history::{History, contacts};
 use crate::sites::Sites;
 use crate::trace::{Fixed, Recorder, Scan, Trace};
-use crate::words::Words;
+use crate::words::{Words, on_off};
 use rungc_analysis::resolve::resolve;
 use rungc_analysis::xref::{CrossReference, Reach, Use};
 use rungc_interp::{Machine, rt_class};
@@ -18,7 +18,7 @@ use rungc_models::runs::is_special;
 use rungc_rt::Plc as _;
 use rungc_rt::special::M_OUTPUTS_OFF;
 use rungc_sim::{Session, Target};
-use rungc_syntax::{Device, DeviceClass, OperandKind, Program};
+use rungc_syntax::{Device, DeviceClass, OperandKind, Phrase, Program, phrase};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Explains devices of a program.
@@ -167,12 +167,12 @@ impl<'p> Explainer<'p> {
     }
 
     /// Value of a device: `on`, `12`; of a timer or counter its contact.
-    fn value(&self, device: Device, session: &Session) -> String {
+    fn value(&self, device: Device, session: &Session) -> Phrase {
         if is_bit(device) {
             return on_off(state(session.machine(), device));
         }
         let reading = session.reading(Target::Word(device.class, device.number));
-        reading.map_or_else(|| "unknown".to_string(), |reading| reading.to_string())
+        reading.map_or_else(|| phrase!("unknown"), |reading| reading.to_string().into())
     }
 
     /// The instructions that may write a device, with their uses.
@@ -192,18 +192,19 @@ impl<'p> Explainer<'p> {
             let path = path.filter(|&path| *trace.graph.node(path) != Node::Const(true));
             let mut notes = Vec::new();
             if drive.is_none() {
-                notes.push("No scan reaches it: nothing calls or jumps to it.".to_string());
+                notes.push(phrase!("No scan reaches it: nothing calls or jumps to it."));
             }
             match one.reach {
                 Reach::Indexed => {
                     let index = self.words.index(one.instr).unwrap_or_default();
-                    notes.push(format!(
-                        "Index {index} selects the devices: it may be another one."
+                    notes.push(phrase!(
+                        "Index {index} selects the devices: it may be another one.",
+                        index
                     ));
                 }
-                Reach::Open => notes.push(format!(
-                    "A register decides how many devices it writes from {} on.",
-                    one.first
+                Reach::Open => notes.push(phrase!(
+                    "A register decides how many devices it writes from {first} on.",
+                    first = one.first
                 )),
                 Reach::Count(_) => {}
             }
@@ -212,7 +213,7 @@ impl<'p> Explainer<'p> {
             let writer = Writer {
                 place: self.words.place(one.instr),
                 effect: one.kind.word(),
-                condition: drive.map_or_else(|| "unknown".to_string(), |drive| text(drive.on)),
+                condition: drive.map_or_else(|| phrase!("unknown"), |drive| text(drive.on)),
                 executed_if: path.map(text),
                 notes,
                 executed: moment.then_some(executed),
@@ -223,19 +224,24 @@ impl<'p> Explainer<'p> {
         writes.map(writer).collect()
     }
 
-    /// Sentences about a device and its writers.
     /// What keeps the terminal of an output off though the output is on.
-    fn terminals(&self, device: Device, now: &Now) -> Vec<String> {
+    fn terminals(&self, device: Device, now: &Now) -> Vec<Phrase> {
         let relay = Device {
             class: DeviceClass::M,
             number: M_OUTPUTS_OFF.number(),
         };
         let is_disabled = device.class == DeviceClass::Y && state(now.session.machine(), relay);
-        let note = || format!("{relay} is on: the terminals of all outputs are off.");
+        let note = || {
+            phrase!(
+                "{relay} is on: the terminals of all outputs are off.",
+                relay
+            )
+        };
         is_disabled.then(note).into_iter().collect()
     }
 
-    fn notes(&self, device: Device, writers: &[(usize, Writer)]) -> Vec<String> {
+    /// Sentences about a device and its writers.
+    fn notes(&self, device: Device, writers: &[(usize, Writer)]) -> Vec<Phrase> {
         let mut notes = Vec::new();
         let name = self.words.named(device);
         let of = |effect: &str| -> Vec<&Writer> {
@@ -245,10 +251,11 @@ impl<'p> Explainer<'p> {
         let coils = of("coil");
         if coils.len() > 1 {
             let steps: Vec<_> = coils.iter().map(|w| w.place.step.to_string()).collect();
-            notes.push(format!(
-                "{name} has {} coils, at steps {}: the last one that is executed decides.",
-                coils.len(),
-                steps.join(", ")
+            notes.push(phrase!(
+                "{name} has {count} coils, at steps {steps}: the last one that is executed decides.",
+                name,
+                count = coils.len(),
+                steps = steps.join(", ")
             ));
         }
         let is_bit = !matches!(device.class, DeviceClass::T | DeviceClass::C);
@@ -259,27 +266,31 @@ impl<'p> Explainer<'p> {
             && is_bit
             && !self.is_step(device)
         {
-            notes.push(format!("{name} is set, and no RST resets it."));
+            notes.push(phrase!("{name} is set, and no RST resets it.", name));
         } else if resets > 0 && resets == writers.len() && is_bit {
-            notes.push(format!("{name} is reset, and nothing sets it."));
+            notes.push(phrase!("{name} is reset, and nothing sets it.", name));
         }
         if self.sends_pulses(device) {
-            notes.push(format!(
-                "{name} sends pulses: whether it is on or off between two of them is not followed."
+            notes.push(phrase!(
+                "{name} sends pulses: whether it is on or off between two of them is not followed.",
+                name
             ));
         }
         let latched = self.module.is_latched(device.class, device.number);
         if latched && !is_special(device.class, device.number) {
-            notes.push(format!("{name} keeps its state over power-off."));
+            notes.push(phrase!("{name} keeps its state over power-off.", name));
         }
         if writers.is_empty() {
             notes.push(match device.class {
-                DeviceClass::X => format!("{name} is an input: its terminal decides."),
-                _ if is_special(device.class, device.number) => {
-                    format!("{name} is a special device: `rungc explain {device}` describes it.")
-                }
-                _ => format!(
-                    "{name} is not written by any instruction: only something outside the program changes it."
+                DeviceClass::X => phrase!("{name} is an input: its terminal decides.", name),
+                _ if is_special(device.class, device.number) => phrase!(
+                    "{name} is a special device: `rungc explain {device}` describes it.",
+                    name,
+                    device
+                ),
+                _ => phrase!(
+                    "{name} is not written by any instruction: only something outside the program changes it.",
+                    name
                 ),
             });
         }
@@ -349,10 +360,6 @@ fn is_program(kind: &FunctionKind) -> bool {
 pub(crate) fn is_bit(device: Device) -> bool {
     use DeviceClass::{C, M, S, T, X, Y};
     matches!(device.class, X | Y | M | S | T | C)
-}
-
-pub(crate) fn on_off(on: bool) -> String {
-    if on { "on" } else { "off" }.to_string()
 }
 
 /// State of a bit device.

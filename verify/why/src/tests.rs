@@ -199,6 +199,28 @@ fn an_answer_leaves_the_run_as_it_was() {
     assert_eq!(came_on, Some(20));
 }
 
+/// Contacts of relays that are always on or off are in conditions as they are in the program.
+#[test]
+fn contacts_that_never_change_are_shown_as_they_are() {
+    let built = build(
+        "LDI M8000\nOUT Y000\nLD X001\nANI M8000\nOUT Y001\nLD M8000\nOUT Y002\nLD X001\nORI M8001\nOUT Y003\n\
+         LD M8000\nINV\nOUT Y004\nLDI M8000\nINV\nOUT Y005\nLDP X001\nINV\nOUT Y006\nEND\n",
+    );
+    let explainer = Explainer::new(&built.program, &built.module, &built.marks);
+    for (name, condition) in [
+        ("Y000", "not M8000"),
+        ("Y001", "X001 and not M8000"),
+        ("Y002", "M8000"),
+        ("Y003", "X001 or not M8001"),
+        ("Y004", "not M8000"),
+        ("Y005", "M8000"),
+        ("Y006", "not (X001 coming on)"),
+    ] {
+        let why = explainer.of_program(device(name));
+        assert_eq!(why.writers[0].condition, condition, "{name}");
+    }
+}
+
 /// What a person can do about a device, from the moment after these settings.
 fn how(list: &str, settings: &[&str], name: &str) -> (String, crate::How) {
     let built = build(list);

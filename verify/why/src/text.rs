@@ -1,7 +1,10 @@
 //! Answers as text: the answer first, then the way to it.
 
-use crate::answer::{Action, Cause, How, Link, Place, Reason, Why, Writer};
-use std::fmt::{self, Write as _};
+use crate::answer::{Action, Cause, How, Link, Place, Reason, Since, Why, Writer};
+use crate::words::{is, list, on_off};
+use rungc_syntax::{Phrase, phrase};
+use std::borrow::Cow;
+use std::fmt;
 
 /// Number of sets that the text lists of one cause.
 const MOST_SETS: usize = 4;
@@ -28,242 +31,322 @@ fn time(ms: u64) -> String {
     }
 }
 
-fn list(texts: &[String]) -> String {
-    match texts {
-        [] => String::new(),
-        [one] => one.clone(),
-        [others @ .., last] => format!("{} and {last}", others.join(", ")),
+/// A text in the language of the reader.
+pub(crate) type Said<'a> = dyn Fn(&Phrase) -> Cow<'_, str> + 'a;
+
+/// A text of lines in one language.
+struct Lines<'a> {
+    said: &'a Said<'a>,
+    text: String,
+}
+
+impl Lines<'_> {
+    fn line(&mut self, phrase: &Phrase) {
+        self.text.push_str(&(self.said)(phrase));
+        self.text.push('\n');
+    }
+
+    /// An indented line.
+    fn inner(&mut self, phrase: &Phrase) {
+        self.text.push_str("  ");
+        self.line(phrase);
+    }
+
+    fn empty(&mut self) {
+        self.text.push('\n');
     }
 }
 
 impl Why {
-    /// The answer as text.
+    /// The answer as text, in English.
     pub fn text(&self) -> String {
-        let mut out = String::new();
+        self.text_in(&|phrase| Cow::Borrowed(phrase.as_str()))
+    }
+
+    /// The answer as text, each sentence as this gives it.
+    pub fn text_in(&self, said: &dyn Fn(&Phrase) -> Cow<'_, str>) -> String {
+        let mut out = Lines {
+            said,
+            text: String::new(),
+        };
         self.headline(&mut out);
         for note in &self.notes {
-            let _ = writeln!(out, "{note}");
+            out.line(note);
         }
         let (asked, others) = self.causes.split_at(self.causes.len().min(1));
         let has_more = |cause: &&Cause| !cause.sets.is_empty() || !cause.notes.is_empty();
         for cause in asked.iter().chain(others.iter().filter(has_more)) {
-            out.push('\n');
+            out.empty();
             cause.write(&mut out);
         }
         let is_followed = |cause: &Cause| !cause.sets.is_empty() || cause.reason == Reason::Written;
         if !asked.first().is_some_and(is_followed) && !self.writers.is_empty() {
-            out.push('\n');
+            out.empty();
             for writer in &self.writers {
                 writer.write(&mut out);
             }
         }
         if let Some(how) = &self.how {
             let name = named(&self.device, self.comment.as_deref());
-            out.push('\n');
+            out.empty();
             how.write(&name, &mut out);
         }
-        out
+        out.text
     }
 
-    fn headline(&self, out: &mut String) {
+    fn headline(&self, out: &mut Lines) {
         let name = named(&self.device, self.comment.as_deref());
         let Some(moment) = &self.moment else {
-            let _ = match self.writers.len() {
-                0 => Ok(()),
-                1 => writeln!(out, "{name} is written by one instruction."),
-                count => writeln!(out, "{name} is written by {count} instructions."),
-            };
+            match self.writers.len() {
+                0 => {}
+                1 => out.line(&phrase!("{name} is written by one instruction.", name)),
+                count => out.line(&phrase!(
+                    "{name} is written by {count} instructions.",
+                    name,
+                    count
+                )),
+            }
             return;
         };
-        let _ = write!(out, "{name} is {}", moment.value);
-        let _ = match moment.ms {
-            Some(ms) => write!(out, " at {}", time(ms)),
-            None => write!(out, " in the PLC"),
-        };
-        if let Some(since) = self.causes.first().and_then(|cause| cause.since.as_ref()) {
-            let _ = write!(out, ", since {} (scan {})", time(since.ms), since.scan);
-            if !since.with.is_empty() {
-                let _ = write!(out, ", when {}", list(&since.with));
-            }
-        }
         // What the PLC drives has no reason but itself.
-        let itself = format!("{name} is {}", moment.value);
-        let mut because: Vec<String> = Vec::new();
+        let itself = is(&name, moment.value.clone());
+        let mut because: Vec<Phrase> = Vec::new();
         for link in &self.because {
-            if link.now != itself && !because.contains(&link.now) {
+            if link.now != *itself && !because.contains(&link.now) {
                 because.push(link.now.clone());
             }
         }
-        let _ = match because.is_empty() {
-            true => writeln!(out, "."),
-            false => writeln!(out, ",\nbecause {}.", list(&because)),
+        let mut state = match moment.ms {
+            Some(ms) => phrase!("{state} at {time}", state = itself, time = time(ms)),
+            None => phrase!("{state} in the PLC", state = itself),
         };
+        if let Some(since) = self.causes.first().and_then(|cause| cause.since.as_ref()) {
+            state = since.of(state);
+        }
+        if because.is_empty() {
+            out.line(&phrase!("{state}.", state));
+        } else {
+            out.line(&phrase!("{state},", state));
+            out.line(&phrase!("because {reasons}.", reasons = list(&because)));
+        }
         if let Some(next) = &moment.next {
-            let _ = writeln!(out, "The next scan switches it {next}.");
+            out.line(&phrase!("The next scan switches it {state}.", state = next));
         }
         if !moment.running {
-            let _ = writeln!(out, "The PLC is in STOP: no instruction is executed.");
+            out.line(&phrase!("The PLC is in STOP: no instruction is executed."));
+        }
+    }
+}
+
+impl Since {
+    /// A state, with the time from which on it has been so.
+    fn of(&self, state: Phrase) -> Phrase {
+        let (time, scan) = (time(self.ms), self.scan);
+        let state = phrase!("{state}, since {time} (scan {scan})", state, time, scan);
+        match self.with.is_empty() {
+            true => state,
+            false => phrase!("{state}, when {changes}", state, changes = list(&self.with)),
         }
     }
 }
 
 impl How {
-    fn write(&self, name: &str, out: &mut String) {
+    fn write(&self, name: &str, out: &mut Lines) {
         let (wanted, comes) = match (self.on, self.pulses) {
-            (true, false) => ("come on", "comes on"),
-            (false, false) => ("go off", "goes off"),
-            (true, true) => ("send pulses or come on", "does"),
-            (false, true) => ("send no pulses and go off", "does"),
+            (true, false) => (phrase!("come on"), phrase!("Then {name} comes on.", name)),
+            (false, false) => (phrase!("go off"), phrase!("Then {name} goes off.", name)),
+            (true, true) => (
+                phrase!("send pulses or come on"),
+                phrase!("Then {name} does.", name),
+            ),
+            (false, true) => (
+                phrase!("send no pulses and go off"),
+                phrase!("Then {name} does.", name),
+            ),
         };
         if self.found {
-            let _ = writeln!(out, "For it to {wanted}:");
+            out.line(&phrase!("For it to {change}:", change = wanted));
             for (n, action) in self.actions.iter().enumerate() {
-                let _ = write!(out, "  {}. ", n + 1);
-                action.write(out);
+                out.inner(&phrase!(
+                    "{number}. {action}",
+                    number = n + 1,
+                    action = action.phrase()
+                ));
             }
-            let _ = writeln!(out, "Then {name} {comes}.");
+            out.line(&comes);
             return;
         }
-        if let Some(reason) = self.not_searched {
-            let _ = writeln!(
-                out,
-                "For it to {wanted}, no way was searched for: {reason}."
-            );
+        if let Some(reason) = &self.not_searched {
+            out.line(&phrase!(
+                "For it to {change}, no way was searched for: {reason}.",
+                change = wanted,
+                reason
+            ));
             return;
         }
-        let _ = writeln!(
-            out,
-            "No way for it to {wanted} was found, in {} states that these lead to, with waits of up to {}: {}.",
-            self.moments,
-            time(self.longest_wait_ms),
-            list(&self.levers)
-        );
+        let levers: Vec<Phrase> = self.levers.iter().map(Phrase::from).collect();
+        out.line(&phrase!(
+            "No way for it to {change} was found, in {count} states that these lead to, with waits of up to {time}: {devices}.",
+            change = wanted,
+            count = self.moments,
+            time = time(self.longest_wait_ms),
+            devices = list(&levers)
+        ));
         if self.left_out > 0 {
-            let _ = writeln!(
-                out,
-                "Not tried: {} devices that are farther away.",
-                self.left_out
-            );
+            let count = self.left_out;
+            out.line(&phrase!(
+                "Not tried: {count} devices that are farther away.",
+                count
+            ));
         } else if !self.is_whole {
-            let _ = writeln!(out, "There are more states: the search has a limit.");
+            out.line(&phrase!("There are more states: the search has a limit."));
         }
     }
 }
 
 impl Action {
-    fn write(&self, out: &mut String) {
+    fn phrase(&self) -> Phrase {
         let name = self
             .device
             .as_deref()
             .map(|device| named(device, self.comment.as_deref()));
-        let takes = time(self.takes_ms);
-        let text = match (name, self.value.as_deref(), self.times) {
-            (None, ..) => format!("wait {takes}"),
-            (Some(name), Some(state @ ("on" | "off")), _) => format!("{name} {state}"),
-            (Some(name), Some(value), _) => format!("{name} = {value}"),
-            (Some(name), None, None | Some(1)) => format!("{name} on, and off again"),
-            (Some(name), None, Some(times)) => format!("{name} on, and off again: {times} times"),
+        let action = match (name, &self.value, self.times) {
+            (None, ..) => phrase!("wait {time}", time = time(self.takes_ms)),
+            (Some(name), Some(state), _) if state == "on" || state == "off" => {
+                phrase!("{name} {state}", name, state)
+            }
+            (Some(name), Some(value), _) => phrase!("{name} = {value}", name, value),
+            (Some(name), None, None | Some(1)) => phrase!("{name} on, and off again", name),
+            (Some(name), None, Some(times)) => {
+                phrase!("{name} on, and off again: {times} times", name, times)
+            }
         };
-        let _ = match self.then.is_empty() {
-            true => writeln!(out, "{text}"),
-            false => writeln!(out, "{text}: {}", list(&self.then)),
-        };
+        match self.then.is_empty() {
+            true => action,
+            false => phrase!("{action}: {changes}", action, changes = list(&self.then)),
+        }
     }
 }
 
 impl Writer {
-    fn write(&self, out: &mut String) {
-        let _ = writeln!(out, "{}", at(&self.place));
-        let _ = writeln!(out, "  driven: {}", self.condition);
+    fn write(&self, out: &mut Lines) {
+        out.line(&at(&self.place));
+        out.inner(&phrase!("driven: {condition}", condition = self.condition));
         if let Some(path) = &self.executed_if {
-            let _ = writeln!(out, "  executed: {path}");
+            out.inner(&phrase!("executed: {condition}", condition = path));
         }
         for note in &self.notes {
-            let _ = writeln!(out, "  {note}");
+            out.inner(note);
         }
     }
 }
 
-fn at(place: &Place) -> String {
+fn at(place: &Place) -> Phrase {
     let Place {
         step,
         network,
         instruction,
     } = place;
-    format!("{instruction}  (network {network}, step {step})")
+    phrase!(
+        "{instruction}  (network {network}, step {step})",
+        instruction,
+        network,
+        step
+    )
 }
 
 impl Cause {
-    fn write(&self, out: &mut String) {
-        let name = named(&self.device, self.comment.as_deref());
-        let state = match (self.reason, self.on) {
-            (Reason::Drive, true) => "driven",
-            (Reason::Drive, false) => "not driven",
-            (_, true) => "on",
-            (_, false) => "off",
-        };
-        let _ = match (self.reason, &self.at) {
-            (Reason::Drive, Some(place)) => writeln!(out, "{} is {state}.", at(place)),
-            (Reason::Written, Some(place)) => {
-                writeln!(out, "{name} is {state}: {}.", at(place))
-            }
-            (Reason::Input, _) => writeln!(out, "{name} is {state}: an input."),
-            (Reason::Special, _) => writeln!(out, "{name} is {state}: the PLC drives it."),
-            (Reason::Unwritten, _) => {
-                writeln!(out, "{name} is {state}: no instruction writes it.")
-            }
-            (Reason::Forced, _) => writeln!(out, "{name} is {state}: it is forced."),
-            (Reason::NotDriven, Some(place)) => {
-                writeln!(out, "{name} stays {state}: {} is not driven.", at(place))
-            }
-            (Reason::NotExecuted, Some(place)) => {
-                writeln!(out, "{name} stays {state}: {} is not executed.", at(place))
-            }
-            _ => writeln!(
-                out,
-                "{name} stays {state}: no instruction writes it in this scan."
-            ),
-        };
+    fn write(&self, out: &mut Lines) {
+        out.line(&self.headline());
         if let Some(progress) = &self.progress {
-            let _ = writeln!(out, "  {}", progress.text());
+            out.inner(&progress.text());
         }
         if self.holds_itself {
-            let _ = writeln!(out, "  It holds itself.");
+            out.inner(&phrase!("It holds itself."));
         }
         for note in &self.notes {
-            let _ = writeln!(out, "  {note}");
+            out.inner(note);
         }
         self.sets(out);
     }
 
-    fn sets(&self, out: &mut String) {
+    fn headline(&self) -> Phrase {
+        let name = named(&self.device, self.comment.as_deref());
+        let place = self.at.as_ref().map(at);
+        let state = on_off(self.on);
+        match (self.reason, place) {
+            (Reason::Drive, Some(place)) => match self.on {
+                true => phrase!("{place} is driven.", place),
+                false => phrase!("{place} is not driven.", place),
+            },
+            (Reason::Written, Some(place)) => {
+                phrase!("{name} is {state}: {place}.", name, state, place)
+            }
+            (Reason::Input, _) => phrase!("{name} is {state}: an input.", name, state),
+            (Reason::Special, _) => phrase!("{name} is {state}: the PLC drives it.", name, state),
+            (Reason::Unwritten, _) => {
+                phrase!("{name} is {state}: no instruction writes it.", name, state)
+            }
+            (Reason::Forced, _) => phrase!("{name} is {state}: it is forced.", name, state),
+            (Reason::NotDriven, Some(place)) => {
+                phrase!(
+                    "{name} stays {state}: {place} is not driven.",
+                    name,
+                    state,
+                    place
+                )
+            }
+            (Reason::NotExecuted, Some(place)) => {
+                phrase!(
+                    "{name} stays {state}: {place} is not executed.",
+                    name,
+                    state,
+                    place
+                )
+            }
+            _ => phrase!(
+                "{name} stays {state}: no instruction writes it in this scan.",
+                name,
+                state
+            ),
+        }
+    }
+
+    fn sets(&self, out: &mut Lines) {
         let needed = |set: &Vec<Link>| {
-            let texts: Vec<String> = set.iter().map(|link| link.needed.clone()).collect();
+            let texts: Vec<Phrase> = set.iter().map(|link| link.needed.clone()).collect();
             list(&texts)
         };
-        let wanted = match (self.reason, self.on) {
-            (Reason::Drive, true) => "not to be driven",
-            (Reason::Drive, false) => "to be driven",
-            (_, true) => "to go off",
-            (_, false) => "to come on",
+        let change = match (self.reason, self.on) {
+            (Reason::Drive, true) => phrase!("not to be driven"),
+            (Reason::Drive, false) => phrase!("to be driven"),
+            (_, true) => phrase!("to go off"),
+            (_, false) => phrase!("to come on"),
         };
         match &self.sets[..] {
             [] => {}
             [set] if !self.more => {
-                let _ = writeln!(out, "  {wanted}, it needs {}", needed(set));
+                out.inner(&phrase!(
+                    "{change}, it needs {needed}",
+                    change,
+                    needed = needed(set)
+                ));
             }
             sets => {
-                let _ = writeln!(out, "  {wanted}, it needs one of");
+                out.inner(&phrase!("{change}, it needs one of", change));
                 for set in sets.iter().take(MOST_SETS) {
-                    let _ = writeln!(out, "    {}", needed(set));
+                    out.text.push_str("  ");
+                    out.inner(&needed(set));
                 }
                 let left = sets.len().saturating_sub(MOST_SETS);
-                let _ = match (left, self.more) {
-                    (0, false) => Ok(()),
-                    (_, true) => writeln!(out, "    or others"),
-                    (1, false) => writeln!(out, "    or one more"),
-                    (left, false) => writeln!(out, "    or {left} more"),
+                let others = match (left, self.more) {
+                    (0, false) => return,
+                    (_, true) => phrase!("or others"),
+                    (1, false) => phrase!("or one more"),
+                    (left, false) => phrase!("or {count} more", count = left),
                 };
+                out.text.push_str("  ");
+                out.inner(&others);
             }
         }
     }

@@ -6,16 +6,17 @@
 
 use crate::answer::{Action, How};
 use crate::causes::whole;
-use crate::explain::{Explainer, is_bit, on_off, state};
+use crate::explain::{Explainer, is_bit, state};
 use crate::levers::{Cone, Lever, target};
 use crate::needs::Needs;
+use crate::words::on_off;
 use rungc_interp::Machine;
 use rungc_models::runs::is_special;
 use rungc_rt::Plc as _;
 use rungc_sim::record::hertz;
 use rungc_sim::session::Moment;
 use rungc_sim::{Session, Target};
-use rungc_syntax::{Device, DeviceClass};
+use rungc_syntax::{Device, DeviceClass, Phrase, phrase};
 use rustc_hash::FxHashSet;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -156,8 +157,8 @@ impl Explainer<'_> {
             pulses: self.sends_pulses(device),
             found: false,
             not_searched: match () {
-                () if !is_bit(device) => Some("a way is searched for bits alone"),
-                () if !session.machine().sys().running => Some("the PLC is in STOP"),
+                () if !is_bit(device) => Some(phrase!("a way is searched for bits alone")),
+                () if !session.machine().sys().running => Some(phrase!("the PLC is in STOP")),
                 () => None,
             },
             longest_wait_ms: WAITS.map(|(_, ms)| ms).into_iter().max().unwrap_or(0),
@@ -490,7 +491,7 @@ impl<'s, 'm> Search<'s, 'm> {
             };
             let named = |device: Device, value: i64| match is_bit(device) {
                 true => on_off(value != 0),
-                false => value.to_string(),
+                false => value.to_string().into(),
             };
             let (value, times) = match act {
                 Act::Change(_, value) => (lever.map(|lever| named(lever, value)), None),
@@ -519,7 +520,7 @@ impl<'s, 'm> Search<'s, 'm> {
     }
 
     /// Devices that have changed, the nearest to the device first.
-    fn changes(&self, before: &View, lever: Option<Device>, explainer: &Explainer) -> Vec<String> {
+    fn changes(&self, before: &View, lever: Option<Device>, explainer: &Explainer) -> Vec<Phrase> {
         let after = self.view();
         let bits = self.bits.iter().zip(before.bits.iter().zip(&after.bits));
         let changed = bits.filter(|(_, (before, after))| before != after);
@@ -528,10 +529,17 @@ impl<'s, 'm> Search<'s, 'm> {
             .map(|(&device, (_, &on))| (self.cone.levels[&device], device, on))
             .collect();
         changed.sort();
-        let verb = |on| if on { "comes on" } else { "goes off" };
-        let changed = changed.into_iter().take(MOST_CHANGES);
+        let sentence = |(_, device, on)| {
+            let name = explainer.words.named(device);
+            match on {
+                true => phrase!("{name} comes on", name),
+                false => phrase!("{name} goes off", name),
+            }
+        };
         changed
-            .map(|(_, device, on)| format!("{} {}", explainer.words.named(device), verb(on)))
+            .into_iter()
+            .take(MOST_CHANGES)
+            .map(sentence)
             .collect()
     }
 }

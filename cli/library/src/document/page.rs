@@ -1,7 +1,7 @@
 //! The documentation as a page.
 
 use super::{Document, Output};
-use crate::language::{Argument, Language, message};
+use crate::language::{Argument, Language, message, phrase};
 use crate::lists::Terminal;
 use crate::xref::Entry;
 use rungc_analysis::resolve::Resolved;
@@ -9,7 +9,9 @@ use rungc_ladder::Ladder;
 use rungc_ladder::html::{Escaped, STYLE, write_section};
 use rungc_ladder::sfc::Chart;
 use rungc_ladder::svg::Painter;
+use rungc_syntax::Phrase;
 use rungc_why::Why;
+use std::borrow::Cow;
 use std::fmt::{self, Write};
 
 /// Style in addition to that of pages with ladders.
@@ -202,10 +204,14 @@ impl<'a> Page<'a> {
         writeln!(out, "</div>")
     }
 
+    fn said<'s>(&self, text: &'s Phrase) -> Cow<'s, str> {
+        phrase(self.language, text)
+    }
+
     /// What can switch a device.
     fn causes(&self, out: &mut String, why: &Why) -> fmt::Result {
         for note in &why.notes {
-            writeln!(out, "<p>{}</p>", Escaped(note))?;
+            writeln!(out, "<p>{}</p>", Escaped(&self.said(note)))?;
         }
         for writer in &why.writers {
             let place = &writer.place;
@@ -215,7 +221,7 @@ impl<'a> Page<'a> {
                 Escaped(&place.instruction),
                 links(&[place.network]),
                 Escaped(&self.text("driven-if")),
-                Escaped(&writer.condition)
+                Escaped(&self.said(&writer.condition))
             )?;
             if let Some(executed) = &writer.executed_if {
                 let executed_if = self.text("executed-if");
@@ -223,12 +229,12 @@ impl<'a> Page<'a> {
                     out,
                     "<dt>{}</dt><dd>{}</dd>",
                     Escaped(&executed_if),
-                    Escaped(executed)
+                    Escaped(&self.said(executed))
                 )?;
             }
             writeln!(out, "</dl>")?;
             for note in &writer.notes {
-                writeln!(out, "<p>{}</p>", Escaped(note))?;
+                writeln!(out, "<p>{}</p>", Escaped(&self.said(note)))?;
             }
         }
         Ok(())

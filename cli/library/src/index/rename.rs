@@ -46,14 +46,24 @@ impl Index {
     /// # Errors
     /// Reason why there is none that can be renamed.
     pub fn renamable(&self, offset: u32) -> Result<(Span, Device), String> {
-        if !self.program().kind.is_list() {
-            return Err("only in instruction lists can devices be renamed".to_owned());
-        }
+        self.is_list()?;
         let place = self.at(offset);
         let found = place.and_then(|place| Some((place, self.device(place.what)?)));
-        let Some((place, device)) = found else {
-            return Err("there is no device here".to_owned());
-        };
+        let (place, device) = found.ok_or_else(|| "there is no device here".to_owned())?;
+        self.may_have_another(device)?;
+        Ok((place.span, device))
+    }
+
+    fn is_list(&self) -> Result<(), String> {
+        match self.program().kind.is_list() {
+            true => Ok(()),
+            false => Err("only in instruction lists can devices be renamed".to_owned()),
+        }
+    }
+
+    /// Returns an error for a device in whose place another one cannot be put.
+    fn may_have_another(&self, device: Device) -> Result<(), String> {
+        self.is_list()?;
         if is_special(device.class, device.number) {
             return Err(format!("`{device}` is a special device"));
         }
@@ -63,7 +73,7 @@ impl Index {
             DeviceClass::V | DeviceClass::Z => Err(format!(
                 "`{device}` is an index register, part of other operands"
             )),
-            _ => self.is_written(device).map(|()| (place.span, device)),
+            _ => self.is_written(device),
         }
     }
 
@@ -92,6 +102,7 @@ impl Index {
             Some(why) => format!("`{new}`: {why}"),
             None => format!("`{new}` is not a device"),
         })?;
+        self.may_have_another(device)?;
         let old = self.block(device)?;
         let block = Block {
             first: target,
@@ -128,6 +139,12 @@ impl Index {
             count = count.max(used);
         }
         let block = Block { first, count };
+        if let Some(device) = block
+            .devices()
+            .find(|device| self.is_named_by_settings(*device))
+        {
+            return Err(format!("rungc.toml names `{device}`"));
+        }
         for device in block.devices().skip(1) {
             let others = self.occurrences(device);
             let part = others
@@ -210,17 +227,28 @@ impl Index {
                     false => format!("`{device}` is taken by `{}`: {line}", one.first),
                 });
             }
-            let parameters = self.program().parameters.as_ref();
-            let runs = parameters.map(|p| [&p.read_externally, &p.written_externally]);
-            let named = runs.into_iter().flatten().flatten().any(|run| {
-                let numbers = run.first..run.first.saturating_add(run.count);
-                run.class == device.class && numbers.contains(&device.number)
-            });
-            if named {
+            if self.is_named_by_settings(device) {
                 return Err(format!("`{device}` is named by rungc.toml"));
             }
         }
         Ok(())
+    }
+
+    /// Returns true for a device that has a label, or that rungc.toml lets something outside read or write.
+    fn is_named_by_settings(&self, device: Device) -> bool {
+        let project = self.project();
+        let own = project
+            .settings()
+            .filter(|settings| settings.is_about(project.file()));
+        let mut labels = own.into_iter().flat_map(|settings| &settings.labels);
+        let parameters = self.program().parameters.as_ref();
+        let runs = parameters.map(|p| [&p.read_externally, &p.written_externally]);
+        let mut runs = runs.into_iter().flatten().flatten();
+        labels.any(|label| label.device == device)
+            || runs.any(|run| {
+                let numbers = run.first..run.first.saturating_add(run.count);
+                run.class == device.class && numbers.contains(&device.number)
+            })
     }
 
     /// Returns an error for devices that an index register may select.

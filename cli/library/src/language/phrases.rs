@@ -30,6 +30,17 @@ pub fn phrase(language: Language, phrase: &Phrase) -> Cow<'_, str> {
     }
 }
 
+/// A sentence without arguments in a language, if the language has it.
+pub fn sentence(language: Language, english: &str) -> Option<String> {
+    if language == Language::English {
+        return None;
+    }
+    let bundle = messages(language);
+    let message = bundle.get_message(&identifier(english))?;
+    let text = bundle.format_pattern(message.value()?, None, &mut Vec::new());
+    Some(text.into_owned())
+}
+
 fn translated(language: Language, phrase: &Phrase) -> Option<String> {
     if language == Language::English || phrase.sentence().is_empty() {
         return None;

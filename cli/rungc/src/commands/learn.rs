@@ -1,5 +1,6 @@
 //! `rungc learn`.
 
+use super::entries::{entry, with_entries};
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, counted, parent_dir, print_text};
 use crate::args::{FileKind, Input, LearnArgs, Reading, Reporting};
@@ -13,7 +14,6 @@ use rungc_project::FILE;
 use rungc_syntax::{SourceKind, text};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use toml::de::{DeTable, DeValue};
 
 /// Learns the codes of a project from its list, writes them to rungc.toml and prints a text to be sent in.
 pub fn run(args: &LearnArgs, cx: Context) -> Result {
@@ -148,40 +148,11 @@ fn write(path: &Path, lessons: &[Lesson]) -> std::result::Result<(), Failure> {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
         Err(error) => return Err(because(error.to_string())),
     };
-    let text = with_tokens(&text, lessons).map_err(because)?;
+    let codes = lessons
+        .iter()
+        .map(|lesson| entry(&lesson.shown(), &lesson.mnemonic));
+    let text = with_entries(&text, "tokens", &codes.collect::<String>()).map_err(because)?;
     rewrite(path, text.as_bytes())
-}
-
-/// Settings with codes after those of their table `[tokens]`.
-fn with_tokens(text: &str, lessons: &[Lesson]) -> std::result::Result<String, String> {
-    let settings = DeTable::parse(text).map_err(|error| error.to_string())?;
-    let quoted = |text: &str| toml::Value::from(text).to_string();
-    let codes = lessons.iter().map(|lesson| {
-        let mnemonic = quoted(&lesson.mnemonic);
-        format!("{} = {mnemonic}\n", quoted(&lesson.shown()))
-    });
-    let codes: String = codes.collect();
-    let Some(tokens) = settings.get_ref().get("tokens") else {
-        let between = match text {
-            "" => "",
-            text if text.ends_with('\n') => "\n",
-            _ => "\n\n",
-        };
-        return Ok(format!("{text}{between}[tokens]\n{codes}"));
-    };
-    let (DeValue::Table(known), true) = (tokens.get_ref(), text[tokens.span()].starts_with('['))
-    else {
-        return Err("write `tokens` as a table `[tokens]`, which codes can be added to".to_owned());
-    };
-    let ends = known.iter().map(|(_, value)| value.span().end);
-    let end = ends.max().unwrap_or(0).max(tokens.span().end);
-    Ok(match text[end..].find('\n') {
-        Some(line) => {
-            let (before, after) = text.split_at(end + line + 1);
-            format!("{before}{codes}{after}")
-        }
-        None => format!("{text}\n{codes}"),
-    })
 }
 
 /// Report by which others can learn the same codes.

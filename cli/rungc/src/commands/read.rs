@@ -13,7 +13,7 @@ use rungc_frontend::{ReadOptions, image};
 use rungc_lower::compile::CompileOptions;
 use rungc_monitor::{Reply, fx, number};
 use rungc_rt::comm::fx_port::PROGRAM_MEMORY;
-use rungc_syntax::Program;
+use rungc_syntax::{Phrase, Program, phrase};
 use std::io::{self, IsTerminal};
 use std::path::Path;
 use std::time::Instant;
@@ -88,7 +88,7 @@ pub fn run(args: &ReadArgs, cx: Context) -> Result {
 pub fn compare(
     plc: &mut rungc_monitor::Plc<Line>,
     program: &Program,
-) -> std::result::Result<String, Failure> {
+) -> std::result::Result<Phrase, Failure> {
     let rungc_monitor::Plc::Port(plc) = plc else {
         return Err(Failure::Because(
             "this connection does not show the program".to_string(),
@@ -96,12 +96,14 @@ pub fn compare(
     };
     let memory = Plc(plc).memory()?;
     Ok(match first_difference(program, &memory) {
-        Ok(None) => "the program in the PLC is this program".to_string(),
-        Ok(Some(step)) => format!("the program in the PLC is another one, from step {step} on"),
-        Err(_) => {
-            let why = "machine code of its instructions is not known";
-            format!("this program cannot be compared with that in the PLC: {why}")
-        }
+        Ok(None) => phrase!("the program in the PLC is this program"),
+        Ok(Some(step)) => phrase!(
+            "the program in the PLC is another one, from step {step} on",
+            step
+        ),
+        Err(_) => phrase!(
+            "this program cannot be compared with that in the PLC: machine code of its instructions is not known"
+        ),
     })
 }
 

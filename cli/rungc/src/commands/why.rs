@@ -21,7 +21,7 @@ use rungc_monitor::{Item, Sample};
 use rungc_sim::Session;
 use rungc_sim::plant::Description;
 use rungc_sim::session::hardware;
-use rungc_syntax::Device;
+use rungc_syntax::{Device, phrase};
 use rungc_why::{Explainer, History, HowOptions};
 use std::collections::BTreeSet;
 use std::fs;
@@ -83,16 +83,12 @@ fn explain(
         (None, Some(end_ms)) => run.explain(&explainer, device, end_ms)?,
         (None, None) => explainer.of_program(device),
     };
-    print(&why, subject.reporting.format)?;
-    Ok(Outcome::Success)
-}
-
-fn print(why: &Why, format: Format) -> std::result::Result<(), Failure> {
-    let text = match format {
-        Format::Json => to_json(why)?,
-        _ => why.text(),
+    let text = match subject.reporting.format {
+        Format::Json => to_json(&why)?,
+        _ => rungc::why::text(&why, cx.language.or(subject.reporting.lang)),
     };
-    Ok(print_text(&text)?)
+    print_text(&text)?;
+    Ok(Outcome::Success)
 }
 
 /// The run that leads to the moment.
@@ -131,8 +127,12 @@ impl Run<'_> {
         sample.extend(plc.read(indexed)?);
         let mut why = self.explain_sample(explainer, device, &sample, "the PLC does not show")?;
         why.notes.extend(compared);
-        why.notes
-            .extend(hidden(&sample, "not shown by the port of the PLC"));
+        why.notes.extend(hidden(&sample).map(|devices| {
+            phrase!(
+                "not shown by the port of the PLC, and taken for off or 0: {devices}",
+                devices
+            )
+        }));
         Ok(why)
     }
 
@@ -164,7 +164,12 @@ impl Run<'_> {
         if let Some(moment) = &mut why.moment {
             moment.ms = Some(ms);
         }
-        why.notes.extend(hidden(&sample, "not in the recording"));
+        why.notes.extend(hidden(&sample).map(|devices| {
+            phrase!(
+                "not in the recording, and taken for off or 0: {devices}",
+                devices
+            )
+        }));
         Ok(why)
     }
 
@@ -240,8 +245,8 @@ impl Run<'_> {
     }
 }
 
-/// What a sample lacks, of all that the program names.
-fn hidden(sample: &Sample, lacks: &str) -> Option<String> {
+/// Devices that a sample lacks, of all that the program names.
+fn hidden(sample: &Sample) -> Option<String> {
     let devices: BTreeSet<Device> = sample.hidden.iter().map(|&item| device_of(item)).collect();
     let named: Vec<String> = devices.iter().take(8).map(Device::to_string).collect();
     let more = if devices.len() > named.len() {
@@ -250,7 +255,7 @@ fn hidden(sample: &Sample, lacks: &str) -> Option<String> {
         ""
     };
     let named = named.join(", ");
-    (!devices.is_empty()).then(|| format!("{lacks}, and taken for off or 0: {named}{more}"))
+    (!devices.is_empty()).then(|| format!("{named}{more}"))
 }
 
 /// Makes the settings whose time has come.

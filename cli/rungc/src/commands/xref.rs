@@ -56,7 +56,13 @@ fn xref(
     let is_workbook = output::file(&args.output).is_some_and(is_workbook);
     let (bytes, ending) = match args.to {
         XrefTo::Text => (table.text(args.unused).into_bytes(), "txt"),
-        XrefTo::Csv => (csv::table(&table)?, "csv"),
+        XrefTo::Csv => {
+            let table = csv::table(&table)?;
+            match is_workbook {
+                true => (table, "xlsx"),
+                false => (csv::without_formulas(&table)?, "csv"),
+            }
+        }
         XrefTo::Html => (html::page(&name, &table).into_bytes(), "html"),
         XrefTo::Json => (to_json(&table)?.into_bytes(), "json"),
         XrefTo::Io => {
@@ -64,10 +70,16 @@ fn xref(
             let table = csv::records(list)?;
             match is_workbook {
                 true => (table, "io.xlsx"),
-                false => (csv::for_spreadsheets(&table), "io.csv"),
+                false => (csv::for_spreadsheets(&table)?, "io.csv"),
             }
         }
-        XrefTo::Tags => (csv::records(lists::tags(&resolved, &ranges))?, "tags.csv"),
+        XrefTo::Tags => {
+            let table = csv::records(lists::tags(&resolved, &ranges))?;
+            match is_workbook {
+                true => (table, "tags.xlsx"),
+                false => (csv::without_formulas(&table)?, "tags.csv"),
+            }
+        }
     };
     let bytes = match (is_workbook, args.to) {
         (false, _) => bytes,

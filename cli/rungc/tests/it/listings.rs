@@ -108,6 +108,45 @@ fn tables_are_workbooks_too() {
     assert_eq!(code(folder.path(), &again), 2);
 }
 
+/// A comment such as the designation of a contactor, or something worse, is a text in a spreadsheet.
+#[test]
+fn no_comment_is_a_formula_in_a_table() {
+    let comments = [
+        "=A1-K1",
+        "+24 V",
+        "-Q1",
+        "@SUM(A1)",
+        "＝1",
+        "=cmd|'/c calc'!A0",
+        "-5",
+        "a=b",
+    ];
+    let lines = comments.iter().enumerate();
+    let lines: String = lines
+        .map(|(n, text)| format!(";! X{n:03o} = {text}\nLD X{n:03o}\nOUT M{n}\n"))
+        .collect();
+    let folder = folder(&[("uses.il", format!("{lines}END\n").as_bytes())]);
+    for to in ["io", "tags", "csv"] {
+        let out = rungc(folder.path(), &["xref", "uses.il", "--to", to]).stdout;
+        let mut reader =
+            csv::Reader::from_reader(out.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&out));
+        let cells: Vec<String> = reader
+            .records()
+            .flat_map(|row| row.unwrap().iter().map(str::to_owned).collect::<Vec<_>>())
+            .collect();
+        let begins = |cell: &&String| cell.starts_with(['=', '+', '@', '＝']) || *cell == "-Q1";
+        assert_eq!(cells.iter().find(begins), None, "{to}");
+        assert!(
+            cells.iter().any(|cell| cell == "'=A1-K1"),
+            "{to}: {cells:?}"
+        );
+        if to == "io" {
+            let plain = ["-5", "a=b"].map(|text| cells.iter().any(|cell| cell == text));
+            assert_eq!(plain, [true; 2], "{cells:?}");
+        }
+    }
+}
+
 #[test]
 fn what_a_cross_reference_cannot_do_is_reported() {
     let files: [(&str, &[u8]); 2] = [("a.il", USES.as_bytes()), ("b.il", MOTOR.as_bytes())];

@@ -14,6 +14,7 @@ mod common;
 mod connected;
 mod conversions;
 mod coverage;
+mod debugging;
 mod deep;
 mod demo;
 mod diff;
@@ -58,6 +59,7 @@ mod project;
 mod projects;
 #[cfg(unix)]
 mod read;
+mod rename;
 mod reports;
 mod results;
 mod retain;

@@ -16,6 +16,12 @@ fn an_answer_is_text_or_an_object() {
     insta::assert_snapshot!("why_latched", why(&["M500"]));
     let json = why(&[&started[..], &["--format", "json"]].concat());
     insta::assert_snapshot!("why_json", json);
+    insta::assert_snapshot!(
+        "why_chinese",
+        why(&[&started[..], &["--lang", "zh"]].concat())
+    );
+    let how = ["motor", "--how", "--lang", "zh"];
+    insta::assert_snapshot!("why_how_chinese", why(&how));
 }
 
 #[test]

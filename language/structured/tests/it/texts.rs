@@ -258,6 +258,30 @@ fn texts_have_the_instructions_of_fx3u() {
     insta::assert_snapshot!(list(text));
 }
 
+/// What is assigned to a label with the name of a constant or device is not reported, too.
+#[test]
+fn a_name_that_cannot_be_a_label_is_reported_once() {
+    let text = "VAR_GLOBAL\n    H10 : INT;\nEND_VAR\nPROGRAM P\nVAR\n    K5 : INT;\n    X0 : BOOL;\nEND_VAR\n\
+         K5 := 3;\nH10 := K5;\nX0 := TRUE;\nEND_PROGRAM\n";
+    let found = compiled(text, ModelId::Fx3u).1;
+    let errors = found.lines().filter(|line| line.contains(" E"));
+    insta::assert_snapshot!(errors.collect::<Vec<_>>().join("\n"), @r"
+    2:5 E0208 `H10` is the name of a device or constant
+    6:5 E0208 `K5` is the name of a device or constant
+    7:5 E0208 `X0` is the name of a device or constant
+    ");
+}
+
+#[test]
+fn constants_of_floats_need_a_model_that_has_them() {
+    let text = body("r := 1.5;\nc := r > 2;\n");
+    assert_eq!(compiled(&text, ModelId::Fx3u).1, "");
+    let found = compiled(&text, ModelId::Fx2n).1;
+    let why = "this takes the instruction `DEMOV`, which Mitsubishi FX2N does not have";
+    assert_eq!(found.matches("E0207").count(), 2, "{found}");
+    assert_eq!(found.matches(why).count(), 2, "{found}");
+}
+
 #[test]
 fn mistakes_are_reported_where_they_are() {
     insta::assert_snapshot!(compiled(include_str!("mistakes.st"), ModelId::Fx3u).1);

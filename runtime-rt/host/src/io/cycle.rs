@@ -38,7 +38,8 @@ impl ExchangeError {
 /// Exchange of values with a remote end.
 pub trait Driver: Send {
     /// Reads all rows that are read into `inputs` and writes `outputs` by the rows that are written, each at the
-    /// places that [`Row::place`](super::Row::place) names; a bit is 0 or 1.
+    /// places that [`Row::place`](super::Row::place) names; a bit is 0 or 1. A row that the other end rejects keeps no
+    /// other row from its turn: outputs change, and are turned off at the end, whatever becomes of an input.
     ///
     /// # Errors
     /// Why the inputs are not those of the other end.
@@ -56,6 +57,22 @@ pub trait Driver: Send {
 
     /// The run is over, and the outputs are off.
     fn end(&mut self) {}
+}
+
+/// Gives each row its turn, also after one that is rejected; the first error is returned, a lost end at once.
+pub(super) fn each_row(
+    connection: &Connection,
+    mut turn: impl FnMut(&Row) -> Result<(), ExchangeError>,
+) -> Result<(), ExchangeError> {
+    let mut result = Ok(());
+    for row in &connection.rows {
+        match turn(row) {
+            Ok(()) => {}
+            Err(error @ ExchangeError::Refused(_)) => result = result.and(Err(error)),
+            Err(lost) => return Err(lost),
+        }
+    }
+    result
 }
 
 /// Opens an other end, waiting for it no longer than the connection says.
@@ -366,6 +383,10 @@ fn work(connection: &Connection, shared: &Shared, open: Opener) {
             state.ends
         };
         let result = match &mut driver {
+            // What is read then is of no use, and whether it comes is not asked.
+            Some(driver) if ends && connection.kind.asks() => {
+                driver.exchange(&connection.written(), &mut inputs, &outputs)
+            }
             Some(driver) => driver.exchange(connection, &mut inputs, &outputs),
             // An end that was lost is not waited for any more.
             None if ends => Err(ExchangeError::Lost("the run has ended".to_string())),

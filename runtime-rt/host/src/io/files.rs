@@ -1,6 +1,6 @@
 //! Files, standard input and output: for scripts, and for the files by which Linux shows LEDs and converters.
 
-use super::cycle::{Driver, ExchangeError};
+use super::cycle::{Driver, ExchangeError, each_row};
 use super::left_out::{LeftOut, shown};
 use super::settings::{Connection, End, Row, devices};
 use std::collections::BTreeMap;
@@ -41,6 +41,34 @@ pub(super) fn open_folder(connection: &Connection) -> Result<Box<dyn Driver>, St
     }
 }
 
+impl Folder {
+    /// Reads the values of a row; what follows them is left out.
+    fn read(&mut self, row: &Row, name: &str, path: &Path, values: &mut [i16]) -> io::Result<()> {
+        if let Some(word) = read(path, values)? {
+            let (word, count) = (shown(&word), row.count);
+            let report = format!("{name}: `{word}` after {count} numbers is left out");
+            self.left_out.add(report);
+        }
+        Ok(())
+    }
+
+    /// Writes the values of a row that have changed.
+    fn write(&mut self, path: PathBuf, values: &[i16]) -> io::Result<()> {
+        if self
+            .written
+            .get(&path)
+            .is_some_and(|written| written == values)
+        {
+            return Ok(());
+        }
+        // Values that a full disk has not accepted are written in the next cycle.
+        self.written.remove(&path);
+        write(&path, values)?;
+        self.written.insert(path, values.to_vec());
+        Ok(())
+    }
+}
+
 impl Driver for Folder {
     fn exchange(
         &mut self,
@@ -48,33 +76,18 @@ impl Driver for Folder {
         inputs: &mut [i16],
         outputs: &[i16],
     ) -> Result<(), ExchangeError> {
-        for row in &connection.rows {
-            let End::Name(name) = &row.end else { continue };
+        each_row(connection, |row| {
+            let End::Name(name) = &row.end else {
+                return Ok(());
+            };
+            let refused = |error: io::Error| ExchangeError::Refused(format!("{name}: {error}"));
             let path = self.path.join(name);
-            let failed = |error: io::Error| ExchangeError::Refused(format!("{name}: {error}"));
-            if row.reads {
-                let rest = read(&path, &mut inputs[row.place.clone()]).map_err(failed)?;
-                if let Some(word) = rest {
-                    let (word, count) = (shown(&word), row.count);
-                    let report = format!("{name}: `{word}` after {count} numbers is left out");
-                    self.left_out.add(report);
-                }
-                continue;
+            match row.reads {
+                true => self.read(row, name, &path, &mut inputs[row.place.clone()]),
+                false => self.write(path, &outputs[row.place.clone()]),
             }
-            let values = &outputs[row.place.clone()];
-            if self
-                .written
-                .get(&path)
-                .is_some_and(|written| written == values)
-            {
-                continue;
-            }
-            // Values that a full disk has not accepted are written in the next cycle.
-            self.written.remove(&path);
-            write(&path, values).map_err(failed)?;
-            self.written.insert(path, values.to_vec());
-        }
-        Ok(())
+            .map_err(refused)
+        })
     }
 
     fn reports(&mut self) -> Vec<String> {

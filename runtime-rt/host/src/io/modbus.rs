@@ -1,13 +1,13 @@
 //! Remote I/O over Modbus, as its master: one request for each row, in turn, in every cycle. Writing in each cycle
 //! keeps the watchdog of a remote station content.
 
-use super::cycle::{Driver, ExchangeError};
+use super::cycle::{Driver, ExchangeError, each_row};
 use super::settings::{Connection, End, Row, Table};
 use rungc_rt::Class;
 use rungc_rt::comm::modbus::{
     Buffer, Framing, Job, LONGEST_RTU, Limits, accept, crc16, refusal, request, tcp,
 };
-use rungc_rt::comm::{Cut, Frame, Map};
+use rungc_rt::comm::{Cut, Frame, LineFault, Map};
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
 use std::time::{Duration, Instant};
@@ -61,16 +61,10 @@ impl<W: Wire> Remote<W> {
             count: own.0.len() as u16,
             buffer,
         };
-        let broken = |what: &dyn std::fmt::Debug| {
-            ExchangeError::Lost(format!(
-                "{}: the answer does not fit: {what:?}",
-                row.devices()
-            ))
-        };
         let mut bytes = [0; LONGEST_RTU];
         let mut frame = Frame::new(&mut bytes);
         let made = request(Framing::Rtu, &Limits::STANDARD, &job, &own, &mut frame);
-        made.map_err(|fault| broken(&fault))?;
+        made.map_err(|_| ExchangeError::Refused(format!("{}: no such request", row.devices())))?;
         let received = self.wire.request(frame.as_slice());
         let reply = received.map_err(|error| ExchangeError::Lost(error.to_string()))?;
         if let Some([_, code]) = refusal(Framing::Rtu, &job, &reply) {
@@ -78,7 +72,10 @@ impl<W: Wire> Remote<W> {
             let why = format!("{devices}: the station rejects the request with exception {code}");
             return Err(ExchangeError::Refused(why));
         }
-        accept(Framing::Rtu, &job, &reply, &mut own).map_err(|fault| broken(&fault))?;
+        accept(Framing::Rtu, &job, &reply, &mut own).map_err(|fault| {
+            let (devices, what) = (row.devices(), misfit(fault));
+            ExchangeError::Refused(format!("{devices}: the answer does not fit: {what}"))
+        })?;
         if packs {
             unpack(&own.0, values);
         } else {
@@ -95,14 +92,24 @@ impl<W: Wire> Driver for Remote<W> {
         inputs: &mut [i16],
         outputs: &[i16],
     ) -> Result<(), ExchangeError> {
-        for row in &connection.rows {
+        each_row(connection, |row| {
             let place = row.place.clone();
             match row.reads {
-                true => self.row(row, &mut inputs[place])?,
-                false => self.row(row, &mut outputs[place].to_vec())?,
+                true => self.row(row, &mut inputs[place]),
+                false => self.row(row, &mut outputs[place].to_vec()),
             }
-        }
-        Ok(())
+        })
+    }
+}
+
+/// The part of an answer that does not fit its request.
+fn misfit(fault: LineFault) -> &'static str {
+    match fault {
+        LineFault::Station | LineFault::Address => "it is from another station or address",
+        LineFault::Length | LineFault::Overflow => "its length",
+        LineFault::Sum => "its sum",
+        LineFault::Command => "its function",
+        _ => "its content",
     }
 }
 

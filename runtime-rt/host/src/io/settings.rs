@@ -35,6 +35,11 @@ impl Kind {
         Kind::Console,
     ];
 
+    /// Returns true if rows that are read are asked for, one by one, in each cycle.
+    pub(super) const fn asks(self) -> bool {
+        matches!(self, Kind::ModbusTcp | Kind::ModbusRtu | Kind::Files)
+    }
+
     /// The key that says where its other end is.
     pub const fn key(self) -> &'static str {
         match self {
@@ -292,6 +297,14 @@ impl Connection {
     /// The rows of a direction.
     pub fn directed(&self, reads: bool) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(move |row| row.reads == reads)
+    }
+
+    /// The connection without the rows that are read; the others have their places.
+    pub(super) fn written(&self) -> Connection {
+        Connection {
+            rows: self.directed(false).cloned().collect(),
+            ..self.clone()
+        }
     }
 
     /// Number of values that it reads, or writes.

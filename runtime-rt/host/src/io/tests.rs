@@ -284,6 +284,78 @@ fn files_are_read_and_written() {
     fs::remove_dir_all(&folder).unwrap();
 }
 
+/// Outputs change while an input is rejected, and are off at the end.
+#[test]
+fn a_row_that_is_rejected_keeps_no_other_from_its_turn() {
+    let folder = std::env::temp_dir().join(format!("rungc-io-refused-{}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    let pairs = [
+        ("files", folder.to_str().unwrap()),
+        ("X000", "read missing"),
+        ("Y000-Y001", "write lamps"),
+        ("every", "1ms"),
+    ];
+    let connection = Connection::read("plant", &pairs).unwrap();
+    let mut io = Io::start(vec![connection], |_| Ok(files::open_folder)).unwrap();
+    let lamps = || fs::read_to_string(folder.join("lamps")).unwrap_or_default();
+    let until = std::time::Instant::now() + std::time::Duration::from_secs(20);
+    while lamps() != "1 1\n" && std::time::Instant::now() < until {
+        io.give_rows(&mut |_, _, _, values| values.fill(1));
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    assert_eq!(lamps(), "1 1\n");
+    let messages = io.end();
+    assert!(
+        messages.iter().all(|line| line.contains(": missing: ")),
+        "{messages:?}"
+    );
+    assert_eq!(lamps(), "0 0\n");
+    fs::remove_dir_all(&folder).unwrap();
+}
+
+/// A slave that rejects reads of registers, and answers those of coils with one byte too many.
+struct Picky;
+
+impl modbus::Wire for Picky {
+    fn request(&mut self, request: &[u8]) -> std::io::Result<Vec<u8>> {
+        let mut reply = match request[1] {
+            0x03 => vec![1, 0x83, 2],
+            0x01 => vec![1, 1, 2, 0xff, 0xff],
+            0x02 => vec![1, 2, 1, 0x01],
+            _ => request[..6].to_vec(),
+        };
+        reply.extend(rungc_rt::comm::modbus::crc16(&reply).to_le_bytes());
+        Ok(reply)
+    }
+}
+
+#[test]
+fn a_slave_that_rejects_a_request_gets_the_others() {
+    let all = [
+        ("D0", "read registers 7"),
+        ("X000", "read coils 0"),
+        ("X001", "read inputs 0"),
+        ("Y000", "write coils 0"),
+    ];
+    let exchanged = |rows: &[(&str, &str)]| {
+        let pairs: Vec<_> = [("modbus-tcp", "h")].iter().chain(rows).copied().collect();
+        let connection = Connection::read("plant", &pairs).unwrap();
+        let mut inputs = vec![0; connection.values(true)];
+        let mut remote = modbus::Remote::new(Picky, &connection).unwrap();
+        let result = remote.exchange(&connection, &mut inputs, &[1]);
+        (
+            inputs.last().copied(),
+            result.map_err(|why| format!("{why:?}")),
+        )
+    };
+    let refused = |why: &str| Err(format!("Refused({why:?})"));
+    let rejected = "D0: the station rejects the request with exception 2";
+    assert_eq!(exchanged(&all), (Some(1), refused(rejected)));
+    let wrong = "X000: the answer does not fit: its length";
+    assert_eq!(exchanged(&all[1..]), (Some(1), refused(wrong)));
+    assert_eq!(exchanged(&all[2..]), (Some(1), Ok(())));
+}
+
 #[test]
 fn payloads_are_taken_or_left_out_with_a_reason() {
     let pairs = [

@@ -308,9 +308,7 @@ impl Reader<'_> {
         self.no_index(raw.index.as_ref());
         self.named = vec![Named::new(plc, tested.program.clone())];
         let others = self.others(raw.plc, plc);
-        let wires = raw.wire.iter();
-        let wires = wires.map(|line| line.iter().filter_map(|port| self.port(port)).collect());
-        let wires = wires.collect();
+        let wires = raw.wire.iter().map(|line| self.wire(line)).collect();
         let serve = self.servers(raw.serve);
         let init = self.settings(raw.init);
         let steps: Vec<Step> = self.steps(raw.step);

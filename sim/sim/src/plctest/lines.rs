@@ -25,6 +25,12 @@ pub(super) struct Lines {
     part: BTreeMap<SerialPort, Vec<u8>>,
 }
 
+/// Returns true if a character has come by a time. Both are counted in 32 bits, which takes 71 minutes, and are less
+/// than half of that apart.
+fn is_due(character: &Received, now_us: u32) -> bool {
+    now_us.wrapping_sub(character.at_us) as i32 >= 0
+}
+
 fn serial(port: &Port) -> Option<SerialPort> {
     port.id.number().map(|number| (port.plc, number))
 }
@@ -70,7 +76,7 @@ impl Lines {
     fn push(&mut self, port: SerialPort, character: Received) {
         let at = self
             .pending
-            .partition_point(|(_, other)| other.at_us <= character.at_us);
+            .partition_point(|(_, other)| is_due(other, character.at_us));
         self.pending.insert(at, (port, character));
     }
 }
@@ -115,7 +121,7 @@ impl Running<'_> {
     pub(super) fn deliver(&mut self) -> Result<(), Failure> {
         let now_us = self.now_us();
         let due = self.lines.pending.iter();
-        let due = due.take_while(|(_, character)| character.at_us <= now_us);
+        let due = due.take_while(|(_, character)| is_due(character, now_us));
         let due = due.count();
         let due: Vec<_> = self.lines.pending.drain(..due).collect();
         for ((plc, port), character) in due {

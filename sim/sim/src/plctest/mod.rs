@@ -374,6 +374,30 @@ mode = { C = "stop" }
     }
 
     #[test]
+    fn what_cannot_match_or_be_wired_is_reported() {
+        let text = r#"model = "h2u"
+topic = "t"
+[[case]]
+name = "a"
+program = "END"
+serve = { "TCP:502" = "modbus" }
+wire = [["COM1"], ["COM2", "COM2"], ["COM3", "TCP:502"]]
+[[case.step]]
+rx = { COM1 = "/1e300 00" }
+expect_tx = { COM1 = [] }
+encoder = { a = "X000", b = "X000", count = 5, hz = 10 }
+"#;
+        insta::assert_snapshot!(problems_of(text), @r#"
+        t.plctest.toml:7:10: `COM1` is alone on its line
+        t.plctest.toml:7:28: `COM2` is on this line already
+        t.plctest.toml:7:46: `TCP:502` is not a port of a PLC
+        t.plctest.toml:9:8: a line is idle for at most 1800000 ms in a step
+        t.plctest.toml:10:15: the list has no text, so that nothing matches
+        t.plctest.toml:11:29: the phases of an encoder have two terminals
+        "#);
+    }
+
+    #[test]
     fn what_a_case_says_of_other_plcs_carries_their_numbers() {
         let text = r#"model = "h2u"
 topic = "t"

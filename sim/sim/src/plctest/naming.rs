@@ -109,6 +109,27 @@ impl Reader<'_> {
         }
     }
 
+    /// The ports of a line: two or more of PLCs, each once.
+    pub(super) fn wire(&mut self, line: &[Spanned<String>]) -> Vec<Port> {
+        let mut ports: Vec<Port> = Vec::new();
+        for name in line {
+            let Some(port) = self.port(name) else {
+                continue;
+            };
+            let at = name.span().start;
+            if port.id.number().is_none() {
+                self.report(at, format!("`{}` is not a port of a PLC", name.get_ref()));
+            } else if ports.contains(&port) {
+                self.report(at, format!("`{}` is on this line already", name.get_ref()));
+            } else if line.len() == 1 {
+                let message = format!("`{}` is alone on its line", name.get_ref());
+                self.report(at, message);
+            }
+            ports.push(port);
+        }
+        ports
+    }
+
     /// Holds what goes over a port to the format; returns the port.
     pub(super) fn line_text(
         &mut self,

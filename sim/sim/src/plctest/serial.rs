@@ -194,6 +194,9 @@ fn hex(sent: &Sent) -> String {
     words.join(" ")
 }
 
+/// The longest idle time of a line in a step, in milliseconds: of times in 32 bits of microseconds, half are past.
+const LONGEST_PAUSE_MS: f64 = 1_800_000.0;
+
 /// The last words of what a client sends and of what it gets, when the connection ends.
 const CLOSE: &str = "close";
 const CLOSED: &str = "closed";
@@ -233,10 +236,7 @@ fn frames(bytes: &[u8]) -> String {
 fn items(text: &str) -> Vec<Item> {
     let byte = |word: &str| u8::from_str_radix(word, 16).ok();
     let item = |word: &str| match (word.strip_prefix('/'), word.split_once('!')) {
-        (Some(ms), _) => {
-            let ms: f64 = ms.parse().ok()?;
-            Some(Item::Pause((ms * 1000.0) as u64))
-        }
+        (Some(_), _) => Some(Item::Pause((pause(word)? * 1000.0) as u64)),
         (None, Some((word, fault))) => Some(Item::Byte(byte(word)?, fault_of(fault)?)),
         (None, None) if word == CLOSE => Some(Item::Close),
         (None, None) => Some(Item::Byte(byte(word)?, CharFault::None)),
@@ -288,12 +288,16 @@ pub(super) fn check_text(port: &str, way: Way, text: &str) -> Result<(), &'stati
         words.pop();
     }
     let fits = |word: &&str| match way {
-        Way::ToPlc => is_byte(word) || is_pause(word) || is_bad_byte(word),
+        Way::ToPlc => is_byte(word) || pause(word).is_some() || is_bad_byte(word),
         Way::FromPlc => is_byte(word),
     };
-    match words.iter().all(fits) {
+    if !words.iter().all(fits) {
+        return Err("write bytes as pairs of hexadecimal digits");
+    }
+    let idle: f64 = words.iter().filter_map(|word| pause(word)).sum();
+    match idle <= LONGEST_PAUSE_MS {
         true => Ok(()),
-        false => Err("write bytes as pairs of hexadecimal digits"),
+        false => Err("a line is idle for at most 1800000 ms in a step"),
     }
 }
 
@@ -306,9 +310,9 @@ fn is_byte(word: &str) -> bool {
 }
 
 /// `/20`: milliseconds for which the line is idle.
-fn is_pause(word: &str) -> bool {
-    let ms = word.strip_prefix('/').and_then(|ms| ms.parse::<f64>().ok());
-    ms.is_some_and(|ms| ms.is_finite() && ms >= 0.0)
+fn pause(word: &str) -> Option<f64> {
+    let ms: f64 = word.strip_prefix('/')?.parse().ok()?;
+    (ms.is_finite() && ms >= 0.0).then_some(ms)
 }
 
 /// `41!p`: a byte with a fault, or a break.
@@ -359,6 +363,7 @@ mod tests {
         use Way::{FromPlc, ToPlc};
         for (port, way, text) in [
             ("COM1", ToPlc, "01 03 /10 0A 41!p 41!f 41!o 00!b /2.5"),
+            ("COM1", ToPlc, "/1800000 00"),
             ("COM1", FromPlc, ""),
             ("CAN", ToPlc, "200#1234 1301000A#"),
             ("TCP:502", ToPlc, "00 01 close"),
@@ -370,6 +375,8 @@ mod tests {
             ("COM1", ToPlc, "1"),
             ("COM1", ToPlc, "41!x"),
             ("COM1", ToPlc, "/-1"),
+            ("COM1", ToPlc, "/1e300 00"),
+            ("TCP:502", ToPlc, "/900000 00 /900000 00 /1"),
             ("COM1", ToPlc, "01 close"),
             ("COM1", FromPlc, "01 /10"),
             ("CAN", ToPlc, "20#12"),

@@ -141,6 +141,10 @@ impl Reader<'_> {
         }
         let mut expect_tx = Vec::new();
         for (port, sent) in raw.expect_tx.into_iter().flatten() {
+            if sent.texts().is_empty() {
+                let message = "the list has no text, so that nothing matches".to_string();
+                self.report(port.span().start, message);
+            }
             let port = self.line_text(&port, Way::FromPlc, sent.texts());
             let texts = sent.texts().iter();
             expect_tx.extend(port.map(|port| {
@@ -221,6 +225,10 @@ impl Reader<'_> {
             && let (Some(first), Some(second)) = (self.terminal(&a), self.terminal(&b))
             && self.frequency(&a, hz)
         {
+            if first == second {
+                let message = "the phases of an encoder have two terminals".to_string();
+                self.report(b.span().start, message);
+            }
             signals.push(Signal::Encoder {
                 a: first,
                 b: second,

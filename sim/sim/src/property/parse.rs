@@ -299,6 +299,10 @@ impl Reader<'_> {
         }
         let what = match self.peek() {
             Some(Token::Word(word)) => match Constant::parse(word) {
+                Some(_) if self.is_name_too(word) => Err(format!(
+                    "`{word}` is a number, and the name of a device: write `\"{word}\"` for the device, or the number \
+                     without a letter"
+                )),
                 Some(constant) => Ok(What::Constant(constant.map_err(|why| error(at, why))?)),
                 None => self.device(word),
             },
@@ -308,6 +312,11 @@ impl Reader<'_> {
         let what = what.map_err(|why| error(at, why))?;
         self.next += 1;
         Ok(Value::new(at, what))
+    }
+
+    /// Returns true for a constant such as `K1` that is the name of a device, too, as of many a contactor.
+    fn is_name_too(&self, word: &str) -> bool {
+        word.starts_with(|c: char| c.is_ascii_alphabetic()) && !(self.names)(word).is_empty()
     }
 
     /// The end of what was opened there.

@@ -13,6 +13,7 @@ fn read(text: &str) -> Result<Condition, String> {
         ],
         "Speed" => vec![Target::Word(DeviceClass::D, 10)],
         "a+b" => vec![Target::Bit(DeviceClass::M, 7)],
+        "K1" | "12" => vec![Target::Bit(DeviceClass::Y, 5)],
         _ => Vec::new(),
     };
     parse(text, &names).map_err(|mistake| format!("{}: {}", mistake.at, mistake.why))
@@ -41,6 +42,22 @@ fn constants_are_bits_of_signed_values() {
     is("D0.i32 > HFFFF", "D0.i32 > 65535");
     is("K5X0 < HFFFFF", "K5X0 < 1048575");
     is("C200.value = 4294967295", "C200.value = -1");
+}
+
+/// A contactor has the name of a constant: which of both is meant has to be said.
+#[test]
+fn constants_that_are_names_are_not_guessed() {
+    let is = |a, b| assert_eq!(read(a), read(b), "{a}");
+    is("\"K1\" & X0", "Y5 & X0");
+    is("D0 > 1 & Y0 = 1", "D0 > H1 & Y0");
+    is("D0 > 12", "D0 > HC");
+    for text in ["K1 & X0", "D0 > K1", "Y0 = K1"] {
+        let why = read(text).unwrap_err();
+        assert!(
+            why.contains("`K1` is a number, and the name of a device: write `\"K1\"`"),
+            "{why}"
+        );
+    }
 }
 
 #[test]

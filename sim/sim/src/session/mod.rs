@@ -6,8 +6,10 @@
 //! [`advance`](Session::advance), [`tick`](Session::tick), [`take_interrupts`](Session::take_interrupts).
 
 mod forced;
+mod history;
 
 pub use forced::Forced;
+pub use history::History;
 
 use crate::plant::{Plant, Wired};
 use crate::record::{Reading, Seen};

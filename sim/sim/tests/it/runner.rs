@@ -16,6 +16,36 @@ fn outcomes(text: &str) -> String {
 
 const HEAD: &str = "model = \"h2u\"\ntopic = \"t\"\n";
 
+/// Microseconds in 32 bits begin anew while a request is on the line: none of its bytes is lost.
+#[test]
+fn a_request_arrives_across_71_minutes() {
+    let text = format!(
+        "{HEAD}{}",
+        r#"
+[[case]]
+name = "slave"
+program = """
+LD M8002
+MOV H2 D8126
+MOV H81 D8120
+MOV K1 D8121
+END
+"""
+[[case.step]]
+scan_ms = 32767
+scans = 131
+[[case.step]]
+set = { D100 = 7 }
+scan_ms = 2483
+[[case.step]]
+rx = { COM1 = "01 03 00 64 00 01 C5 D5" }
+run_ms = 200
+expect_tx = { COM1 = "01 03 02 00 07 F9 86" }
+"#
+    );
+    insta::assert_snapshot!(outcomes(&text), @"t.plctest.toml:5: slave [interp]: passed");
+}
+
 #[test]
 fn what_differs_is_reported_with_its_step() {
     let text = format!(

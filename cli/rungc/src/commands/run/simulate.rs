@@ -436,11 +436,12 @@ impl<'a> Simulation<'a> {
             return;
         };
         if self.has_external_input || self.history.is_due(live.scans()) {
-            self.history.keep(Moment {
+            let moment = Moment {
                 session: self.session.save(),
                 pending: self.pending.clone(),
                 control: live.control(),
-            });
+            };
+            self.history.keep(live.scans(), moment);
         }
     }
 
@@ -460,7 +461,7 @@ impl<'a> Simulation<'a> {
             return Ok(Err(format!("the run can go back by {reach} scans")));
         }
         let scan = scans - u64::from(count);
-        let Some(moment) = self.history.before(scan) else {
+        let Some((scans, moment)) = self.history.before(scan) else {
             return Ok(Err("the run cannot go back".to_string()));
         };
         self.session.restore(&moment.session);
@@ -468,7 +469,7 @@ impl<'a> Simulation<'a> {
         let Some(live) = &mut self.live else {
             return Ok(Err("the run has no page".to_string()));
         };
-        let mut left = scan - moment.control.scans;
+        let mut left = scan - scans;
         live.begin_again(moment.control);
         let muted = std::mem::replace(&mut self.out.muted, true);
         let scan_ms = loop {
