@@ -97,7 +97,9 @@ impl<'m> Fmu<'m> {
 
     /// Returns true if the program links the runtime library, which an importer cannot build: its sources are Rust.
     pub fn needs_library(&self) -> bool {
-        self.sources.iter().any(|file| file.path.starts_with("rungc-rt/"))
+        self.sources
+            .iter()
+            .any(|file| file.path.starts_with("rungc-rt/"))
     }
 
     /// The archive, with a shared library if there is one.
@@ -131,7 +133,9 @@ impl<'m> Fmu<'m> {
 pub fn binary_path(target: &Target, name: &str) -> Option<String> {
     let (architecture, system) = match target.rustc_name() {
         None => (ARCH, OS),
-        Some(_) if target.system == System::Bare || target.flags.contains("-static") => return None,
+        Some(_) if target.system == System::Bare || target.flags.contains("-static") => {
+            return None;
+        }
         Some(triple) => (triple.split('-').next().unwrap_or_default(), "linux"),
     };
     let architecture = match architecture {
@@ -161,7 +165,10 @@ fn token(sources: &[OutFile]) -> String {
         }
     }
     let digest = hash.finalize();
-    let digits: String = digest[..16].iter().map(|byte| format!("{byte:02x}")).collect();
+    let digits: String = digest[..16]
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect();
     let parts = [0..8, 8..12, 12..16, 16..20, 20..32].map(|range| &digits[range]);
     format!("{{{}}}", parts.join("-"))
 }
@@ -188,7 +195,10 @@ pub fn refusal(module: &Module) -> Option<String> {
                 _ => return,
             };
             asks = true;
-            steps.insert(step);
+            // An instruction that is driven is not the first; calls of the PLC itself have this step.
+            if step > 0 {
+                steps.insert(step);
+            }
         });
     }
     let named = steps.iter().filter_map(|step| {
@@ -197,7 +207,12 @@ pub fn refusal(module: &Module) -> Option<String> {
     });
     let named: Vec<String> = named.collect();
     let more = named.len().saturating_sub(NAMED);
-    let first = named.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ");
+    let first = named
+        .iter()
+        .take(NAMED)
+        .cloned()
+        .collect::<Vec<_>>()
+        .join(", ");
     match (asks, named.is_empty(), more) {
         (false, ..) => None,
         (true, true, _) => Some("uses special devices of the clock or of modules".to_string()),

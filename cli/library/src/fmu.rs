@@ -78,7 +78,7 @@ fn devices<'a>(
             devices.insert(device, used.holds);
         }
     }
-    // A word that is but the high half of a number is no variable.
+    // A word that is but the high half of a number has no variable.
     let pairs: Vec<Device> = devices
         .iter()
         .filter(|(_, holds)| **holds != Holds::Single)

@@ -211,7 +211,12 @@ fn tag(
 }
 
 /// A name of a device that no other tag has.
-pub(crate) fn unique(comment: &str, device: Device, suffix: &str, names: &mut HashSet<String>) -> String {
+pub(crate) fn unique(
+    comment: &str,
+    device: Device,
+    suffix: &str,
+    names: &mut HashSet<String>,
+) -> String {
     let mut name = match comment {
         "" => format!("{device}{suffix}"),
         comment => format!("{comment}{suffix}"),

@@ -428,7 +428,8 @@ pub struct Plan {
     /// Add misra.txt to emitted C: deviations from MISRA C:2012, as suppressions for cppcheck (`rungc book builds`).
     #[arg(long)]
     pub misra: bool,
-    /// Put only sources into a functional mock-up unit, no shared library for this machine or --target (`rungc book fmu`).
+    /// Put only sources into a functional mock-up unit, no shared library for this machine or --target (`rungc book
+    /// fmu`).
     #[arg(long)]
     pub sources_only: bool,
     /// Add the feature `defmt` to emitted Rust: with it, defmt prints the program's state and errors

@@ -79,9 +79,15 @@ pub(super) fn model(fmu: &Fmu) -> io::Result<String> {
             ],
         )?;
         node(xml, "LogCategories", &[], |xml| {
-            let error = ("description", "Calls that cannot be answered; always logged");
+            let error = (
+                "description",
+                "Calls that cannot be answered; always logged",
+            );
             leaf(xml, "Category", &[("name", "logStatusError"), error])?;
-            let events = ("description", "Operation errors of the program, and its STOP");
+            let events = (
+                "description",
+                "Operation errors of the program, and its STOP",
+            );
             leaf(xml, "Category", &[("name", "logEvents"), events])
         })?;
         let step = format!("{}", f64::from(SCAN_MS) / 1000.0);
@@ -114,7 +120,9 @@ fn variables(xml: &mut Xml, fmu: &Fmu) -> io::Result<()> {
         ("max", "32767"),
     ];
     leaf(xml, "Int32", &scan)?;
-    fmu.variables().iter().try_for_each(|one| variable(xml, one))
+    fmu.variables()
+        .iter()
+        .try_for_each(|one| variable(xml, one))
 }
 
 fn variable(xml: &mut Xml, variable: &Variable) -> io::Result<()> {

@@ -172,7 +172,9 @@ impl Plan {
             plan.runtime.get_or_insert(folder.join("rungc-rt").into());
         }
         let path = match (file(&plan.output), emit) {
-            (Some(folder), Emit::Elf | Emit::Uf2 | Emit::Fmu) => folder.join(emit.default_output(name)),
+            (Some(folder), Emit::Elf | Emit::Uf2 | Emit::Fmu) => {
+                folder.join(emit.default_output(name))
+            }
             (Some(folder), Emit::Ir) => folder.join(format!("{name}.ir")),
             (Some(folder), _) => folder.join(name),
             (None, Emit::Ir) => return Ok(plan),

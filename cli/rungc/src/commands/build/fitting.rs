@@ -17,6 +17,9 @@ pub(super) fn fitting(
     let Some(emit) = args.emit else {
         return Ok(target);
     };
+    if args.sources_only && emit != Emit::Fmu {
+        return wrong("--sources-only only applies to --emit fmu (`rungc book fmu`)");
+    }
     match emit {
         Emit::Ir if args.main => wrong("--main does not apply: the IR has no main program"),
         Emit::Ir | Emit::C | Emit::Rust if !args.cargo_arg.is_empty() && !args.report => {
@@ -53,9 +56,13 @@ pub(super) fn fitting(
         }
         Emit::Elf if args.board.is_none() => wrong(&NO_BOARD.replace("IMAGE", "elf")),
         Emit::Uf2 if args.board.is_none() => wrong(&NO_BOARD.replace("IMAGE", "uf2")),
-        Emit::Bin | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust | Emit::Fmu if args.device_access => wrong(
-            "--device-access only applies to --emit c and --emit lib; emitted Rust has the trait `Plc` for this",
-        ),
+        Emit::Bin | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust | Emit::Fmu
+            if args.device_access =>
+        {
+            wrong(
+                "--device-access only applies to --emit c and --emit lib; emitted Rust has the trait `Plc` for this",
+            )
+        }
         Emit::C if args.device_access && args.board.is_some() => wrong(
             "--device-access does not apply to the sources of an image; emit the program without --board",
         ),
@@ -78,9 +85,6 @@ pub(super) fn fitting(
         }
         _ if args.defmt && (emit != Emit::Rust || args.board.is_some()) => {
             wrong("--defmt only applies to --emit rust without --board (`rungc book builds`)")
-        }
-        _ if args.sources_only && emit != Emit::Fmu => {
-            wrong("--sources-only only applies to --emit fmu (`rungc book fmu`)")
         }
         _ if args.runtime.is_some() && emit != Emit::Rust => {
             wrong("--runtime only applies to --emit rust (`rungc book embedding`)")

@@ -21,7 +21,8 @@ impl Job<'_> {
         permit(&path, Kind::Fmu, self.plan.force)?;
         let panels = |runs: fn(&rungc_project::Project) -> &[rungc_project::Range]| {
             let runs = self.project.map_or(&[][..], runs).iter();
-            runs.map(rungc_project::Range::run).collect::<Vec<DeviceRun>>()
+            runs.map(rungc_project::Range::run)
+                .collect::<Vec<DeviceRun>>()
         };
         let written = panels(|project| &project.hmi);
         let read = panels(|project| &project.hmi_reads);
@@ -53,7 +54,9 @@ impl Job<'_> {
         })?;
         let built = progress::spin("building", || self.tools().c_shared(unit.sources()));
         let contents = built.map_err(|error| {
-            Failure::Because(format!("{error}\n(or --sources-only, for an FMU that importers build)"))
+            Failure::Because(format!(
+                "{error}\n(or --sources-only, for an FMU that importers build)"
+            ))
         })?;
         Ok(Some(Binary {
             path: place,
