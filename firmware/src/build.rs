@@ -296,6 +296,37 @@ impl Tools {
         Ok(library)
     }
 
+    /// Builds sources in C as a shared library, of which only marked functions are visible. The same sources give the
+    /// same bytes with the same compiler.
+    ///
+    /// # Errors
+    /// A compiler is missing or fails, or files cannot be written.
+    pub fn c_shared(&self, files: &[OutFile]) -> Result<Vec<u8>, BuildError> {
+        self.check_c()?;
+        let folder = write(files)?;
+        let sources = files.iter().map(|file| file.path.as_str());
+        let sources = sources.filter(|path| path.ends_with(".c") && !path.contains('/'));
+        let mut link = Command::new(&self.cc);
+        link.current_dir(folder.path())
+            .args(self.target.flags.split_whitespace())
+            .args(["-std=c99", "-O2", "-shared", "-fvisibility=hidden"])
+            .args(["-ffunction-sections", "-fdata-sections", "-o", "shared"])
+            .args(sources);
+        if !cfg!(windows) || self.target.rustc_name().is_some() {
+            link.arg("-fPIC");
+        }
+        if calls_runtime(files) {
+            link.arg(self.runtime(folder.path())?);
+            // The runtime's functions are for the program alone.
+            if !cfg!(target_vendor = "apple") {
+                link.args(["-Wl,--exclude-libs,ALL", "-Wl,--gc-sections"]);
+            }
+        }
+        let output = link.output().map_err(io(Path::new(&self.cc)))?;
+        succeeded("the C compiler", output)?;
+        read(&folder.path().join("shared"))
+    }
+
     /// Builds sources in C and links all of the program that a host calls, and nothing else, as an executable to be
     /// measured. Its struct is called `plc`.
     pub fn c_probe(&self, files: &[OutFile], module: &Module) -> Result<Vec<u8>, BuildError> {

@@ -2,8 +2,8 @@
 //!
 //! [`target`] lists the machines, [`board`] reads the description of a board and [`boards`] has some, [`image`] writes
 //! the sources of an image for it, [`sources`] those of a library, [`package`] those of a library for another build
-//! system, and [`build`] calls the compilers; [`report`] measures the resources it uses there, and [`flash`] writes an
-//! image into a microcontroller.
+//! system, [`fmu`] a unit for co-simulation, and [`build`] calls the compilers; [`report`] measures the resources it
+//! uses there, and [`flash`] writes an image into a microcontroller.
 //!
 //! This crate must not know what a program computes: it calls the backends and compilers, and reads what they made.
 //! Start reading at [`target`] and [`image`].
@@ -12,6 +12,7 @@ pub mod board;
 pub mod boards;
 pub mod build;
 pub mod flash;
+pub mod fmu;
 pub mod image;
 pub mod package;
 pub mod report;

@@ -39,6 +39,7 @@ mod diagnostic;
 pub mod document;
 mod error;
 pub mod explain;
+pub mod fmu;
 pub mod index;
 pub mod language;
 pub mod lists;

@@ -211,7 +211,12 @@ fn tag(
 }
 
 /// A name of a device that no other tag has.
-fn unique(comment: &str, device: Device, suffix: &str, names: &mut HashSet<String>) -> String {
+pub(crate) fn unique(
+    comment: &str,
+    device: Device,
+    suffix: &str,
+    names: &mut HashSet<String>,
+) -> String {
     let mut name = match comment {
         "" => format!("{device}{suffix}"),
         comment => format!("{comment}{suffix}"),
@@ -247,7 +252,7 @@ fn modbus(profile: &Profile, device: Device, is_bit: bool) -> Option<(&'static s
 }
 
 /// A comment in letters, digits and `_`.
-fn identifier(comment: &str) -> String {
+pub(crate) fn identifier(comment: &str) -> String {
     let words = comment
         .split(|c: char| !c.is_alphanumeric())
         .filter(|word| !word.is_empty());

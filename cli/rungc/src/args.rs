@@ -395,7 +395,7 @@ pub struct Plan {
     /// Extra argument for cargo, such as `-Zbuild-std=core`; may be repeated.
     #[arg(long, value_name = "ARG", allow_hyphen_values = true)]
     pub cargo_arg: Vec<String>,
-    /// Folder (c, rust, lib) or file (bin, elf, ir) to write; for ir the default is standard output. With several
+    /// Folder (c, rust, lib) or file (bin, elf, fmu, ir) to write; for ir the default is standard output. With several
     /// programs, a folder for all outputs, each under its program's name; in c they share headers, the runtime and a
     /// Makefile there.
     #[arg(short, long, value_name = "PATH")]
@@ -428,6 +428,10 @@ pub struct Plan {
     /// Add misra.txt to emitted C: deviations from MISRA C:2012, as suppressions for cppcheck (`rungc book builds`).
     #[arg(long)]
     pub misra: bool,
+    /// Put only sources into a functional mock-up unit, no shared library for this machine or --target (`rungc book
+    /// fmu`).
+    #[arg(long)]
+    pub sources_only: bool,
     /// Add the feature `defmt` to emitted Rust: with it, defmt prints the program's state and errors
     /// (`rungc book builds`).
     #[arg(long)]

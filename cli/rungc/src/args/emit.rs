@@ -28,6 +28,8 @@ pub enum Emit {
     Zephyr,
     /// An ESP-IDF component: C, `idf_component.yml`, an example.
     EspIdf,
+    /// A functional mock-up unit for co-simulation (FMI 3.0), built from C.
+    Fmu,
 }
 
 /// Language of the image's sources.
@@ -47,7 +49,14 @@ impl Emit {
             Emit::Platformio => Some(Kind::PlatformIo),
             Emit::Zephyr => Some(Kind::Zephyr),
             Emit::EspIdf => Some(Kind::EspIdf),
-            Emit::Ir | Emit::C | Emit::Rust | Emit::Bin | Emit::Lib | Emit::Elf | Emit::Uf2 => None,
+            Emit::Ir
+            | Emit::C
+            | Emit::Rust
+            | Emit::Bin
+            | Emit::Lib
+            | Emit::Elf
+            | Emit::Uf2
+            | Emit::Fmu => None,
         }
     }
 
@@ -64,6 +73,7 @@ impl Emit {
             Emit::Platformio => format!("{name}-platformio"),
             Emit::Zephyr => format!("{name}-zephyr"),
             Emit::EspIdf => format!("{name}-esp-idf"),
+            Emit::Fmu => format!("{name}.fmu"),
         }
     }
 

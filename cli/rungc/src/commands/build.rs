@@ -1,6 +1,7 @@
 //! `rungc build`.
 
 mod fitting;
+mod fmu;
 mod library;
 mod runtime;
 
@@ -32,6 +33,7 @@ use rungc_firmware::sources;
 use rungc_firmware::target::Target;
 use rungc_ir::{Module, dump};
 use rungc_lower::compile::{self, CompileOptions};
+use rungc_project::Project;
 use rungc_sim::Target as Device;
 use rungc_syntax::codes;
 use rungc_syntax::{DeviceClass, FittedModule, Program, text};
@@ -98,6 +100,8 @@ fn build(
         module: &module,
         target,
         image: image.as_ref(),
+        program: &read.program,
+        project: subject.own_project(),
         unsaved: subject.unsaved(),
     };
     let written = match plan.emit {
@@ -168,7 +172,9 @@ impl Plan {
             plan.runtime.get_or_insert(folder.join("rungc-rt").into());
         }
         let path = match (file(&plan.output), emit) {
-            (Some(folder), Emit::Elf | Emit::Uf2) => folder.join(emit.default_output(name)),
+            (Some(folder), Emit::Elf | Emit::Uf2 | Emit::Fmu) => {
+                folder.join(emit.default_output(name))
+            }
             (Some(folder), Emit::Ir) => folder.join(format!("{name}.ir")),
             (Some(folder), _) => folder.join(name),
             (None, Emit::Ir) => return Ok(plan),
@@ -348,6 +354,10 @@ struct Job<'a> {
     module: &'a Module,
     target: &'static Target,
     image: Option<&'a ForImage>,
+    /// The program as it was read.
+    program: &'a Program,
+    /// The settings, if they are about this program.
+    project: Option<&'a Project>,
     /// The bit that is on while latched devices cannot be saved.
     unsaved: Option<(DeviceClass, u32)>,
 }
@@ -449,6 +459,7 @@ impl Job<'_> {
             })?,
             Emit::Elf => self.program(what, || self.elf())?,
             Emit::Uf2 => self.program(what, || self.uf2())?,
+            Emit::Fmu => self.fmu()?,
             Emit::Arduino | Emit::Platformio | Emit::Zephyr | Emit::EspIdf => {
                 self.folder(what, || self.package(what))?
             }

@@ -27,6 +27,8 @@ pub enum Kind {
     Table,
     /// A report, human-readable or for programs: JSON, SARIF, JUnit, LCOV.
     Report,
+    /// A functional mock-up unit.
+    Fmu,
     /// A file that people write or edit, or that has no recognisable content: it is never replaced unasked.
     Own,
 }
@@ -44,6 +46,10 @@ impl Kind {
         if content.starts_with(b"aig ") {
             let own = content.ends_with(b"c\nrungc\n");
             return if own { Kind::Proof } else { Kind::Own };
+        }
+        if content.starts_with(b"PK\x03\x04") {
+            let own = is_unit(content);
+            return if own { Kind::Fmu } else { Kind::Own };
         }
         // A section header without options; other tools name themselves there.
         if content.starts_with(&[0x0A, 0x0D, 0x0D, 0x0A, 28, 0, 0, 0]) {
@@ -121,6 +127,16 @@ fn of_text(text: &str) -> Option<Kind> {
         return None;
     };
     Some(kind)
+}
+
+/// Returns true for a functional mock-up unit: an archive that begins with its description, which is not compressed.
+fn is_unit(archive: &[u8]) -> bool {
+    /// Start of the name of the first file.
+    const NAME: usize = 30;
+    const TOOL: &[u8] = b" generationTool=\"rungc ";
+    let named = archive.get(NAME..);
+    named.is_some_and(|name| name.starts_with(b"modelDescription.xml"))
+        && archive.windows(TOOL.len()).any(|word| word == TOOL)
 }
 
 /// Returns true for a page, by the beginning of its style sheet.

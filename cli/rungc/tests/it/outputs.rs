@@ -13,7 +13,7 @@ const OPTIONS: &str = include_str!("../outputs.txt");
 const SCOPE: &str = include_str!("../../../../examples/programs/cam.il");
 
 /// Files of kinds that people write, and files of theirs that look like results.
-const OWN: [(&str, &[u8]); 28] = [
+const OWN: [(&str, &[u8]); 30] = [
     ("a.il", b"LD X0\nOUT Y0\nEND\n"),
     ("b.il", b"LD X1\nOUT Y0\nEND\n"),
     ("other.il", b"LD X7\nOUT Y7\nEND\n"),
@@ -50,6 +50,14 @@ const OWN: [(&str, &[u8]); 28] = [
     (
         "page.html",
         b"<!DOCTYPE html>\n<style>\n:root { color-scheme: light dark; }\n</style>\n",
+    ),
+    (
+        "mine.zip",
+        b"PK\x05\x06\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0",
+    ),
+    (
+        "other.fmu",
+        b"PK\x03\x04\x0A\0\0\0\0\0\0\0\x21\0\0\0\0\0\0\0\0\0\0\0\0\0\x14\0\0\0modelDescription.xml<fmi generationTool=\"other\"/>",
     ),
     ("mine.cnf", b"p cnf 2 1\n1 2 0\n"),
     ("mine.btor2", b"1 sort bitvec 1\n2 input 1\n"),

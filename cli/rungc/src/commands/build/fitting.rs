@@ -17,6 +17,9 @@ pub(super) fn fitting(
     let Some(emit) = args.emit else {
         return Ok(target);
     };
+    if args.sources_only && emit != Emit::Fmu {
+        return wrong("--sources-only only applies to --emit fmu (`rungc book fmu`)");
+    }
     match emit {
         Emit::Ir if args.main => wrong("--main does not apply: the IR has no main program"),
         Emit::Ir | Emit::C | Emit::Rust if !args.cargo_arg.is_empty() && !args.report => {
@@ -44,6 +47,7 @@ pub(super) fn fitting(
         | Emit::Platformio
         | Emit::Zephyr
         | Emit::EspIdf
+        | Emit::Fmu
             if args.board.is_some() =>
         {
             wrong(
@@ -52,19 +56,23 @@ pub(super) fn fitting(
         }
         Emit::Elf if args.board.is_none() => wrong(&NO_BOARD.replace("IMAGE", "elf")),
         Emit::Uf2 if args.board.is_none() => wrong(&NO_BOARD.replace("IMAGE", "uf2")),
-        Emit::Bin | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust if args.device_access => wrong(
-            "--device-access only applies to --emit c and --emit lib; emitted Rust has the trait `Plc` for this",
-        ),
+        Emit::Bin | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust | Emit::Fmu
+            if args.device_access =>
+        {
+            wrong(
+                "--device-access only applies to --emit c and --emit lib; emitted Rust has the trait `Plc` for this",
+            )
+        }
         Emit::C if args.device_access && args.board.is_some() => wrong(
             "--device-access does not apply to the sources of an image; emit the program without --board",
         ),
-        Emit::Bin | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust if args.retain => {
+        Emit::Bin | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust | Emit::Fmu if args.retain => {
             wrong("--retain only applies to --emit c and --emit lib (`rungc book retain`)")
         }
         Emit::C if args.retain && args.board.is_some() => wrong(
             "--retain does not apply to the sources of an image: describe its flash as `[retain]` of the board (`rungc book retain`)",
         ),
-        Emit::Bin | Emit::Lib | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust
+        Emit::Bin | Emit::Lib | Emit::Elf | Emit::Uf2 | Emit::Ir | Emit::Rust | Emit::Fmu
             if args.lanes.is_some() =>
         {
             wrong("--lanes only applies to --emit c (`rungc book lanes`)")
@@ -103,6 +111,9 @@ fn main_fits(
         _ if args.main && args.board.is_some() => wrong(
             "--main does not apply: an image has its own main program, generated from the board's description",
         ),
+        Emit::Fmu if args.main => {
+            wrong("--main does not apply: importers run a functional mock-up unit")
+        }
         Emit::Lib if args.main => wrong("--main does not apply: a library has no main program"),
         _ if args.main && emit.package().is_some() => {
             wrong("--main does not apply: the folder has an example that runs the program")

@@ -8,6 +8,16 @@ const NAMED: usize = 3;
 
 /// The note about them; `None` if a C compiler is all that it takes to build the program.
 pub fn note(module: &Module) -> Option<String> {
+    let reasons = reasons(module)?;
+    Some(format!(
+        "{} links the runtime library, which takes cargo to build (https://rustup.rs), because of {reasons}; \
+         `rungc book embedding`",
+        module.name
+    ))
+}
+
+/// The instructions, or what else the library is needed for; `None` if it is not.
+pub fn reasons(module: &Module) -> Option<String> {
     let calls = runtime_calls(module).into_iter();
     let calls: Vec<_> = calls.filter(|call| !call.in_c).collect();
     if calls.is_empty() {
@@ -32,10 +42,5 @@ pub fn note(module: &Module) -> Option<String> {
     if needs.is_empty() {
         needs.push("its special registers".to_string());
     }
-    Some(format!(
-        "{} links the runtime library, which takes cargo to build (https://rustup.rs), because of {}; \
-         `rungc book embedding`",
-        module.name,
-        needs.join(", ")
-    ))
+    Some(needs.join(", "))
 }

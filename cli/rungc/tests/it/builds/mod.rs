@@ -1,5 +1,8 @@
 //! Emitted folders in the builds that firmware has.
 
+// With a C compiler and libraries as Linux has them.
+#[cfg(target_os = "linux")]
+mod fmu;
 mod misra;
 // With tools as Debian installs them.
 #[cfg(unix)]
