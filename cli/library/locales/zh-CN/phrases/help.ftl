@@ -40,6 +40,9 @@ t-a-folder-of-c99-d98b5546 = C99 的文件夹
 # A folder with a static library and its headers (built from C)
 t-a-folder-with-a-static-library-and-its-93408fff = 含静态库及其头文件的文件夹（由 C 编译）
 
+# A functional mock-up unit for co-simulation (FMI 3.0), built from C
+t-a-functional-mock-up-unit-for-co-simulation-f3dc8a7b = 用于联合仿真的功能样机单元 FMU（FMI 3.0，由 C 编译）
+
 # A page with a search
 t-a-page-with-a-search-1cdb679a = 带搜索的页面
 
@@ -352,8 +355,8 @@ t-file-to-write-a-table-also-as-a-33669242 = 要写入的文件；表格也可�
 # Flash an image to a microcontroller through its ROM boot loader (STM32, AN3155) or with probe-rs
 t-flash-an-image-to-a-microcontroller-through-its-ef0c9329 = 通过微控制器的 ROM 引导程序（STM32，AN3155）或 probe-rs 写入映像
 
-# Folder (c, rust, lib) or file (bin, elf, ir) to write; for ir the default is standard output. With several programs, a folder for all outputs, each under its program's name; in c they share headers, the runtime and a Makefile there
-t-folder-c-rust-lib-or-file-bin-elf-17482e37 = 要写入的文件夹（c、rust、lib）或文件（bin、elf、ir）；ir 默认为标准输出。有多个程序时，为存放全部输出的文件夹，各以其程序命名；c 形式共用其中的头文件、运行时和 Makefile
+# Folder (c, rust, lib) or file (bin, elf, fmu, ir) to write; for ir the default is standard output. With several programs, a folder for all outputs, each under its program's name; in c they share headers, the runtime and a Makefile there
+t-folder-c-rust-lib-or-file-bin-elf-594632f5 = 要写入的文件夹（c、rust、lib）或文件（bin、elf、fmu、ir）；ir 默认为标准输出。有多个程序时，为存放全部输出的文件夹，各以其程序命名；c 形式共用其中的头文件、运行时和 Makefile
 
 # Folder in which programs and test files may be written. A file that was there before is never replaced. Default: none
 t-folder-in-which-programs-and-test-files-may-e71ecddc = 可以写入程序和测试文件的文件夹。原有的文件从不替换。默认：无
@@ -684,6 +687,9 @@ t-prove-that-a-program-has-a-property-or-b2083b0e = 证明程序具有某性质�
 
 # Put another device in the place of one, or give devices labels
 t-put-another-device-in-the-place-of-one-51c9c1a1 = 用另一个软元件替换某软元件，或给软元件命名标号
+
+# Put only sources into a functional mock-up unit, no shared library for this machine or --target (`rungc book fmu`)
+t-put-only-sources-into-a-functional-mock-up-de068e72 = 功能样机单元中只放源程序，不含供本机或 --target 使用的共享库（`rungc book fmu`）
 
 # Random seed: another seed searches differently
 t-random-seed-another-seed-searches-differently-b18d181d = 随机种子：不同的种子有不同的搜索
