@@ -138,7 +138,7 @@ fn target(name: &'static str, run: fn(&str), seeds: &[&str]) -> Target {
     }
 }
 
-pub(super) fn targets() -> [Target; 8] {
+pub(super) fn targets() -> [Target; 9] {
     [
         target(
             "fleet-file",

@@ -10,16 +10,11 @@ pub(super) fn fitting(
     reporting: &Reporting,
 ) -> std::result::Result<&'static Target, Failure> {
     let wrong = |why: &str| Err(Failure::Because(why.to_string()));
-    if args.report && !matches!(reporting.format, Format::Human | Format::Json) {
-        return wrong("--report is only available as text and as JSON; use --format json");
-    }
+    form_fits(args, reporting).map_err(Failure::Because)?;
     let target = args.target.unwrap_or(target::host());
     let Some(emit) = args.emit else {
         return Ok(target);
     };
-    if args.sources_only && emit != Emit::Fmu {
-        return wrong("--sources-only only applies to --emit fmu (`rungc book fmu`)");
-    }
     match emit {
         Emit::Ir if args.main => wrong("--main does not apply: the IR has no main program"),
         Emit::Ir | Emit::C | Emit::Rust if !args.cargo_arg.is_empty() && !args.report => {
@@ -90,6 +85,19 @@ pub(super) fn fitting(
             wrong("--runtime only applies to --emit rust (`rungc book embedding`)")
         }
         _ => main_fits(emit, args, target),
+    }
+}
+
+/// Returns an error for options of reports and units that go with other forms.
+fn form_fits(args: &Plan, reporting: &Reporting) -> std::result::Result<(), String> {
+    if args.report && !matches!(reporting.format, Format::Human | Format::Json) {
+        return Err(
+            "--report is only available as text and as JSON; use --format json".to_string(),
+        );
+    }
+    match args.sources_only && args.emit.is_some_and(|emit| emit != Emit::Fmu) {
+        true => Err("--sources-only only applies to --emit fmu (`rungc book fmu`)".to_string()),
+        false => Ok(()),
     }
 }
 
