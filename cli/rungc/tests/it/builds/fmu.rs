@@ -109,7 +109,7 @@ impl Run<'_> {
 
     /// The values after each scan of the interpreter.
     fn interpreted(&self, at: &Path, inputs: bool) -> Value {
-        let project = Project::open(&at.join(self.file)).unwrap();
+        let project = Project::open(at.join(self.file)).unwrap();
         let program = project.check().compile().unwrap();
         let mut plc = program.start();
         let ms = u64::from(self.scan_ms.unwrap_or(10));
