@@ -17,12 +17,6 @@ pub(super) fn fitting(
     };
     match emit {
         Emit::Ir if args.main => wrong("--main does not apply: the IR has no main program"),
-        Emit::Ir | Emit::C | Emit::Rust if !args.cargo_arg.is_empty() && !args.report => {
-            wrong("--cargo-arg only applies to what is built here; sources are only written")
-        }
-        _ if !args.cargo_arg.is_empty() && emit.package().is_some() => {
-            wrong("--cargo-arg only applies to what is built here; sources are only written")
-        }
         _ if args.backend.is_some() && !emit.is_image() => {
             wrong("--backend only applies to --emit elf and --emit uf2")
         }
@@ -88,11 +82,20 @@ pub(super) fn fitting(
     }
 }
 
-/// Returns an error for options of reports and units that go with other forms.
+/// Returns an error for options that go with other forms.
 fn form_fits(args: &Plan, reporting: &Reporting) -> std::result::Result<(), String> {
     if args.report && !matches!(reporting.format, Format::Human | Format::Json) {
         return Err(
             "--report is only available as text and as JSON; use --format json".to_string(),
+        );
+    }
+    let is_written = |emit: Emit| match emit {
+        Emit::Ir | Emit::C | Emit::Rust => !args.report,
+        _ => emit.package().is_some(),
+    };
+    if !args.cargo_arg.is_empty() && args.emit.is_some_and(is_written) {
+        return Err(
+            "--cargo-arg only applies to what is built here; sources are only written".to_string(),
         );
     }
     match args.sources_only && args.emit.is_some_and(|emit| emit != Emit::Fmu) {
